@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# GLSL -> SPIR-V at build time, embedded in the library. An entry point is a file NAME.<stage>.glsl under shaders/, src/ or
+# techniques/; its name in the table is its path from the root without ".glsl". Other .glsl files are includes.
+function(gnomon_compile_shader source name output)
+  string(REGEX MATCH "\\.([a-z]+)\\.glsl$" _ ${source})
+  set(stage ${CMAKE_MATCH_1})
+  get_filename_component(folder ${output} DIRECTORY)
+  file(MAKE_DIRECTORY ${folder})
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${GNOMON_GLSLC} -O -g --target-env=vulkan1.3 -fshader-stage=${stage} -Werror -mfmt=num -MD -MF ${output}.d
+            -I ${CMAKE_SOURCE_DIR} -o ${output} ${source}
+    DEPENDS ${source} DEPFILE ${output}.d COMMENT "GLSL ${name}" VERBATIM)
+endfunction()
+
+function(gnomon_embed_shaders target)
+  set(pattern "*.vert.glsl" "*.frag.glsl" "*.comp.glsl" "*.geom.glsl" "*.task.glsl" "*.mesh.glsl" "*.rgen.glsl" "*.rmiss.glsl" "*.rchit.glsl" "*.rahit.glsl")
+  set(sources)
+  foreach(root shaders src techniques tests)
+    foreach(p ${pattern})
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${root}/${p})
+      list(APPEND sources ${found})
+    endforeach()
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/techniques/_")
+  list(SORT sources)
+  set(arrays)
+  set(table)
+  set(outputs)
+  set(index 0)
+  foreach(source ${sources})
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${source})
+    string(REGEX REPLACE "\\.glsl$" "" name ${name})
+    set(output ${CMAKE_BINARY_DIR}/shaders/${name}.inc)
+    gnomon_compile_shader(${source} ${name} ${output})
+    list(APPEND outputs ${output})
+    string(APPEND arrays "constexpr uint32_t shader_${index}[] = {\n#include \"${output}\"\n};\n")
+    string(APPEND table "    {\"${name}\", shader_${index}},\n")
+    math(EXPR index "${index} + 1")
+  endforeach()
+  set(text "// Generated from the .glsl entry points.\n#include \"gpu/program.h\"\nnamespace {\n${arrays}constexpr gnomon::gpu::ShaderSource shaders[] = {\n${table}};\n}\nstd::span<const gnomon::gpu::ShaderSource> gnomon::gpu::embedded_shaders() { return shaders; }\n")
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/embedded_shaders.cpp CONTENT "${text}" @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated/embedded_shaders.cpp)
+  set_source_files_properties(${CMAKE_BINARY_DIR}/generated/embedded_shaders.cpp PROPERTIES OBJECT_DEPENDS "${outputs}")
+endfunction()

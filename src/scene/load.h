@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+struct LoadOptions {
+    double time = 0.0; ///< seconds; animations and skins are sampled here
+    double detail = 1.0; ///< built-in scenes: multiplies their triangle count
+    int gltf_scene = -1; ///< which scene of a glTF file; -1 = its default
+};
+
+/// A scene by name or file: a built-in's name ("citadel"), a .glb or .gltf, or one of Gnomon's own scene .json files.
+/// Throws Error naming file, element and cause; what could be repaired is in Scene::warnings.
+Scene load(const std::string& name_or_file, const LoadOptions& = {});
+
+/// glTF 2.0. Accepts KHR_mesh_quantization, EXT_meshopt_compression, EXT_mesh_gpu_instancing, KHR_texture_transform,
+/// KHR_materials_transmission, KHR_materials_volume, KHR_materials_emissive_strength, KHR_materials_unlit (as diffuse), KHR_lights_punctual.
+Scene load_gltf(const std::filesystem::path&, const LoadOptions& = {});
+
+/// Gnomon's scene file: docs/scene-files.md.
+Scene load_scene_json(const std::filesystem::path&, const LoadOptions& = {});
+std::string scene_json_text(const Scene&, std::string_view model); ///< the same form back: cameras, lights, time
+
+/// A built-in procedural scene.
+struct Builtin {
+    std::string_view name, help; ///< one sentence: what it tests
+    bool analytic; ///< has a closed form (scene/analytic.h)
+    bool opaque; ///< no mask and no blend materials
+    Scene (*make)(double detail);
+};
+const std::vector<Builtin>& builtins();
+
+} // namespace gnomon::scene
