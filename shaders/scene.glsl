@@ -12,6 +12,12 @@ struct Instance {
     uint first_vertex;
 };
 
+struct VertexAttributes {
+    uint normal; // octahedral, snorm16x2
+    vec2 uv;
+    uint color; // rgba8
+};
+
 struct TextureUse {
     int index; // -1 = none
     vec3 u_row, v_row; // KHR_texture_transform

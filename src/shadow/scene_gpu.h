@@ -53,13 +53,15 @@ public:
         bool cull_back_faces = false; ///< of single-sided materials; otherwise the encoder's cull mode is left alone
         bool attributes = false; ///< binds stream 1
         bool previous = false; ///< binds stream 2
+        const vec3* back_to_front_of = nullptr; ///< sorts instances by the distance of their centres from this eye
         uint32_t layer = 0; ///< < 256; reaches the vertex shader in the top byte of gl_InstanceIndex (shaders/scene.glsl)
     };
     /// Draw calls for the chosen triangles inside a raster pass; returns the triangles sent.
     uint64_t draw(gpu::Encoder&, const DrawOptions&);
 
+    struct Impl; ///< scene_gpu_impl.h
+
 private:
-    struct Impl;
     std::unique_ptr<Impl> impl_;
 };
 

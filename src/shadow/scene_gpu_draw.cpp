@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/scene_gpu_impl.h"
 
-#include "base/error.h"
+#include <algorithm>
 
 namespace gnomon::shadow {
 
@@ -41,23 +41,26 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
     if (options.attributes) encoder.vertex_buffer(1, s.attributes);
     if (options.previous) encoder.vertex_buffer(2, previous_positions());
     encoder.index_buffer(s.indices);
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < s.slots.size(); ++i)
+        if ((s.slots[i].set & options.sets) != 0 && !(options.cull && outside(s.slots[i].bounds, *options.cull))) order.push_back(i);
+    if (options.back_to_front_of) {
+        const auto distance = [&](uint32_t i) { return glm::length(s.slots[i].bounds.centre() - *options.back_to_front_of); };
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return distance(a) > distance(b); });
+    }
     uint64_t triangles = 0;
     int culling = -1;
-    const auto drawn = [&](const Slot& slot) { return (slot.set & options.sets) != 0 && !(options.cull && outside(slot.bounds, *options.cull)); };
-    for (size_t first = 0; first < s.slots.size();) {
-        const Slot& slot = s.slots[first];
-        if (!drawn(slot)) {
-            ++first;
-            continue;
-        }
+    for (size_t first = 0; first < order.size();) {
+        // neighbours in the instance buffer with one mesh become one instanced draw
+        const Slot& slot = s.slots[order[first]];
         size_t end = first + 1;
-        while (end < s.slots.size() && s.slots[end].mesh == slot.mesh && drawn(s.slots[end])) ++end;
+        while (end < order.size() && order[end] == order[end - 1] + 1 && s.slots[order[end]].mesh == slot.mesh) ++end;
         if (options.cull_back_faces && culling != int(slot.double_sided)) {
             culling = int(slot.double_sided);
             encoder.cull(slot.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         }
         const MeshRange& range = s.ranges[slot.mesh];
-        encoder.draw_indexed(range.index_count, uint32_t(end - first), range.first_index, int32_t(range.first_vertex), uint32_t(first) | options.layer << 24);
+        encoder.draw_indexed(range.index_count, uint32_t(end - first), range.first_index, int32_t(range.first_vertex), order[first] | options.layer << 24);
         triangles += uint64_t(range.index_count / 3) * (end - first);
         first = end;
     }

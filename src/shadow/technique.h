@@ -9,6 +9,7 @@
 #include "shadow/scene_gpu.h"
 
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
