@@ -7,6 +7,7 @@
 
 #include <volk.h>
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,6 +53,7 @@ struct PassTime {
 struct Submitted {
     std::vector<PassTime> times; ///< in the order of the list
     uint64_t transient_bytes; ///< memory of the list's transients
+    std::map<std::string, uint64_t> group_bytes; ///< the same by the group (PassList::group) that made them
 };
 
 /// Every failed Vulkan call throws base::Error with the call's name, the result and what to do (out of memory: smaller sizes;
