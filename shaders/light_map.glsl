@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth layers of one light, whatever their layout. Depth is reversed: stored 1 nearest the light, 0 = nothing there.
+// Functions take one LightMapLayer and not the whole block: a struct passed by value with an array inside becomes indexed private
+// memory, which lavapipe pays for at every pixel.
+#ifndef GNOMON_LIGHT_MAP_GLSL
+#define GNOMON_LIGHT_MAP_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/light_map.shared.h"
+
+struct MapPoint {
+    vec2 uv; // [0,1], v down
+    float z; // reversed stored depth
+    float depth; // linear, metres along the layer's axis
+    bool inside; // in front of the layer's eye and within its rim
+};
+
+// Cube faces in the order +x -x +y -y +z -z: the major axis of p - centre (B2.5a).
+int select_cube_layer(vec3 centre, vec3 p_world)
+{
+    const vec3 d = p_world - centre, a = abs(d);
+    if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0 ? 0 : 1;
+    if (a.y >= a.z) return d.y >= 0.0 ? 2 : 3;
+    return d.z >= 0.0 ? 4 : 5;
+}
+
+int select_layer(uint layout_kind, vec3 centre, vec3 p_world)
+{
+    return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, p_world) : 0;
+}
+
+float stored_from_depth(LightMapLayer layer, float depth)
+{
+    // perspective: z w = near far / (far - near) - depth near / (far - near), w = depth
+    const float scale = layer.near / (layer.far - layer.near);
+    if (layer.perspective != 0) return scale * (layer.far / max(depth, 1e-20) - 1.0);
+    return (layer.far - depth) / (layer.far - layer.near);
+}
+
+float depth_from_stored(LightMapLayer layer, float z)
+{
+    if (layer.perspective != 0) return layer.near * layer.far / (z * (layer.far - layer.near) + layer.near);
+    return layer.far - z * (layer.far - layer.near);
+}
+
+MapPoint project(LightMapLayer layer, vec3 p_world)
+{
+    MapPoint m;
+    const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
+    m.uv = h.xy / h.w;
+    m.z = h.z / h.w;
+    m.depth = dot(layer.depth_plane, vec4(p_world, 1.0));
+    m.inside = h.w > 0.0 && all(greaterThanEqual(m.uv, vec2(0.0))) && all(lessThanEqual(m.uv, vec2(1.0)));
+    return m;
+}
+
+float metres_per_texel(LightMapLayer layer, float depth)
+{
+    return layer.texel_metres * (layer.perspective != 0 ? depth : 1.0);
+}
+
+float fetch_depth(sampler2DArray map, int layer_index, ivec2 texel)
+{
+    return texelFetch(map, ivec3(texel, layer_index), 0).r;
+}
+
+// 1 where the stored occluder is not nearer than `z`: the hardware's compare, filtered if the sampler is.
+float compare_depth(sampler2DArrayShadow map, int layer_index, vec2 uv, float z)
+{
+    return texture(map, vec4(uv, float(layer_index), z));
+}
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_SHADERS_LIGHT_MAP_SHARED_H
+#define GNOMON_SHADERS_LIGHT_MAP_SHARED_H
+#include "shaders/shared.h"
+
+#define LIGHT_MAP_SINGLE 0
+#define LIGHT_MAP_CUBE 1
+#define LIGHT_MAP_MAX_LAYERS 8
+
+SHARED_BEGIN(shaders)
+
+/// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth.
+struct LightMapLayer {
+    mat4 map_from_world;
+    vec4 depth_plane; ///< linear depth in metres along the layer's axis = dot(depth_plane, (p, 1))
+    float texel_metres; ///< width of a texel: in metres (orthographic) or at 1 m linear depth (perspective)
+    float near; ///< metres along the axis where stored z = 1
+    float far; ///< where stored z = 0
+    uint perspective; ///< 0 or 1
+};
+
+struct LightMap {
+    uint layout_kind; ///< LIGHT_MAP_*
+    uint layer_count;
+    float size; ///< texels a side
+    float depth_step; ///< smallest step of the stored depth (D16: 1/65535; D32F: 2^-24)
+    vec3 centre; ///< where the layers look from (cube)
+    float padding;
+    LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The receiver: what the G-buffer says about a pixel.
+#ifndef GNOMON_RECEIVER_GLSL
+#define GNOMON_RECEIVER_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/frame.shared.h"
+#include "shaders/octahedral.glsl"
+
+struct Receiver {
+    vec3 p_world;
+    vec3 n_geometric; // unit, world, on the eye's side
+    vec3 n_shading;
+    bool background;
+};
+
+vec3 world_from_depth(View view, vec2 pixel, float depth)
+{
+    const vec2 ndc = pixel / view.size * 2.0 - 1.0;
+    const vec4 p = view.world_from_clip * vec4(ndc, depth, 1.0);
+    return p.xyz / p.w;
+}
+
+// `pixel` is gl_FragCoord.xy (centres at +0.5).
+Receiver load_receiver(View view, sampler2D depth_image, usampler2D normal_image, vec2 pixel)
+{
+    Receiver r;
+    const float depth = texelFetch(depth_image, ivec2(pixel), 0).r;
+    r.background = depth == 0.0;
+    r.p_world = world_from_depth(view, pixel, depth);
+    const uvec2 n = texelFetch(normal_image, ivec2(pixel), 0).rg;
+    r.n_shading = decode_normal(n.x);
+    r.n_geometric = decode_normal(n.y);
+    return r;
+}
+
+// Unit vector from the eye's picture towards the viewer.
+vec3 towards_eye(View view, vec3 p_world) { return view.orthographic != 0 ? -view.forward : normalize(view.eye - p_world); }
+
+// Width of a pixel at p, in metres, across the viewing direction.
+float pixel_metres(View view, vec3 p_world) { return 2.0 * view.pixel_radius * (view.orthographic != 0 ? 1.0 : dot(p_world - view.eye, view.forward)); }
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/gbuffer.h"
+
+#include "shadow/light_constants.h"
+#include "shadow/scene_gpu.h"
+#include "src/shadow/gbuffer.shared.h"
+
+namespace gnomon::shadow {
+
+namespace {
+
+GBuffer make_images(gpu::PassList& passes, SceneGpu& scene, const scene::View& view, const GBufferRequest& request)
+{
+    const auto image = [&](VkFormat format, const char* name) { return passes.transient({format, view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name}); };
+    GBuffer g;
+    g.depth = image(VK_FORMAT_D32_SFLOAT, "depth");
+    g.normal = image(VK_FORMAT_R32G32_UINT, "normal");
+    g.primitive = image(VK_FORMAT_R32_UINT, "primitive");
+    if (request.material) {
+        g.albedo = image(VK_FORMAT_R8G8B8A8_SRGB, "albedo");
+        g.surface = image(VK_FORMAT_R8G8B8A8_UNORM, "surface");
+        if (scene.emits()) g.emissive = image(VK_FORMAT_R16G16B16A16_SFLOAT, "emissive");
+    }
+    if (request.previous) g.motion = image(VK_FORMAT_R32G32_SFLOAT, "motion");
+    return g;
+}
+
+} // namespace
+
+GBuffer draw_gbuffer(gpu::PassList& passes, SceneGpu& scene, const scene::View& view, const GBufferRequest& request)
+{
+    const GBuffer g = make_images(passes, scene, view, request);
+    shaders::GBufferConstants constants{view_constants(view, 0), mat4(1), request.previous ? 1u : 0u};
+    if (request.previous) constants.previous_clip_from_world = request.previous->clip_from_world;
+
+    gpu::Device& device = scene.device();
+    const gpu::Program& opaque = device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag");
+    constexpr gpu::SpecConstant with_mask[] = {{0, 1}};
+    const gpu::Program& masked = device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag", with_mask);
+
+    gpu::RasterPass pass;
+    pass.name = "gbuffer";
+    pass.program = &opaque;
+    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}, {passes.import(scene.previous_instances()), gpu::Use::load}};
+    pass.constants = constants;
+    pass.textures = &scene.textures();
+    VkClearColorValue nothing{};
+    nothing.uint32[0] = 0xffffffffu;
+    pass.colors = {{g.normal}, {g.primitive, gpu::Load::clear, nothing}, {g.albedo}, {g.surface}, {g.emissive}, {g.motion}};
+    pass.depth = gpu::DepthTarget{g.depth};
+    pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream(), SceneGpu::previous_stream()};
+    pass.draw = [&scene, &masked, planes = frustum_planes(view.clip_from_world)](gpu::Encoder& encoder) {
+        scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .cull_back_faces = true, .attributes = true, .previous = true});
+        if (!scene.has(draw_masked)) return;
+        encoder.program(masked);
+        scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .cull_back_faces = true, .attributes = true, .previous = true});
+    };
+    passes.raster(std::move(pass));
+    return g;
+}
+
+} // namespace gnomon::shadow

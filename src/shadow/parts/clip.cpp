@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/clip.h"
+
+#include "shadow/scene_gpu.h"
+
+#include <array>
+
+namespace gnomon::shadow::parts {
+
+namespace {
+
+using Polygon = std::vector<vec3>;
+
+/// Sutherland and Hodgman 1974: keeps the part with dot(plane, (p, 1)) >= 0.
+Polygon clip(const Polygon& in, vec4 plane)
+{
+    Polygon out;
+    for (size_t i = 0; i < in.size(); ++i) {
+        const vec3 a = in[i], b = in[(i + 1) % in.size()];
+        const float da = glm::dot(vec3(plane), a) + plane.w, db = glm::dot(vec3(plane), b) + plane.w;
+        if (da >= 0.0f) out.push_back(a);
+        if ((da >= 0.0f) != (db >= 0.0f)) out.push_back(a + (b - a) * (da / (da - db)));
+    }
+    return out;
+}
+
+/// The six faces of a hexahedron whose corner i has x high for i & 1, y for i & 2, z for i & 4.
+std::array<Polygon, 6> faces(const std::array<vec3, 8>& c)
+{
+    return {Polygon{c[0], c[2], c[6], c[4]}, {c[1], c[3], c[7], c[5]}, {c[0], c[1], c[5], c[4]}, {c[2], c[3], c[7], c[6]}, {c[0], c[1], c[3], c[2]}, {c[4], c[5], c[7], c[6]}};
+}
+
+std::array<vec3, 8> box_corners(const Bounds& b)
+{
+    std::array<vec3, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[size_t(i)] = vec3(i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z);
+    return corners;
+}
+
+/// Corners of the frustum, its far end just beyond the box (the view's own far plane is at infinity).
+std::array<vec3, 8> frustum_corners(const scene::View& view, const Bounds& box)
+{
+    const vec3 forward = -vec3(view.view_from_world[0][2], view.view_from_world[1][2], view.view_from_world[2][2]);
+    float far = view.near;
+    for (const vec3 c : box_corners(box)) far = std::max(far, glm::dot(c - view.eye, forward));
+    far = far * 1.001f + 1e-3f;
+    std::array<vec3, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+        const scene::Ray ray = view_ray(view, vec2(i & 1 ? view.size.width : 0, i & 2 ? view.size.height : 0));
+        const float along = glm::dot(ray.direction, forward), start = glm::dot(ray.origin - view.eye, forward);
+        corners[size_t(i)] = ray.origin + ray.direction * (((i & 4 ? far : view.near) - start) / along);
+    }
+    return corners;
+}
+
+Planes box_planes(const Bounds& b)
+{
+    return {vec4(1, 0, 0, -b.min.x), vec4(-1, 0, 0, b.max.x), vec4(0, 1, 0, -b.min.y), vec4(0, -1, 0, b.max.y), vec4(0, 0, 1, -b.min.z), vec4(0, 0, -1, b.max.z)};
+}
+
+} // namespace
+
+std::vector<vec3> visible_part(const scene::View& view, const Bounds& box)
+{
+    std::vector<vec3> points;
+    const auto add = [&](const std::array<Polygon, 6>& polygons, const Planes& planes) {
+        for (Polygon p : polygons) {
+            for (const vec4& plane : planes) p = clip(p, plane);
+            points.insert(points.end(), p.begin(), p.end());
+        }
+    };
+    add(faces(box_corners(box)), frustum_planes(view.clip_from_world));
+    add(faces(frustum_corners(view, box)), box_planes(box));
+    return points;
+}
+
+} // namespace gnomon::shadow::parts

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/math.h"
+#include "scene/view.h"
+
+#include <vector>
+
+namespace gnomon::shadow::parts {
+
+/// The vertices of (what the view sees) ∩ (the box), world space: faces of the box clipped by the frustum's planes and faces of
+/// the frustum, cut off beyond the box, clipped by the box. Empty where the view sees nothing of it.
+std::vector<vec3> visible_part(const scene::View&, const Bounds& box);
+
+} // namespace gnomon::shadow::parts

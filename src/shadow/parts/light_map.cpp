@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/light_map.h"
+
+#include "src/shadow/parts/light_depth.shared.h"
+
+namespace gnomon::shadow::parts {
+
+namespace {
+
+// map_from_world gives uv; the rasteriser wants clip coordinates
+const mat4 clip_from_map = glm::scale(mat4(1), vec3(2, 2, 1)) * glm::translate(mat4(1), vec3(-0.5f, -0.5f, 0));
+
+shaders::LightDepthConstants depth_constants(const shaders::LightMap& map)
+{
+    shaders::LightDepthConstants c{};
+    for (uint32_t i = 0; i < map.layer_count; ++i) c.clip_from_world[i] = clip_from_map * map.layers[i].map_from_world;
+    return c;
+}
+
+/// Without the near plane for orthographic layers: casters before it are clamped onto it, not lost.
+Planes caster_planes(const mat4& clip_from_world, bool perspective)
+{
+    Planes planes = frustum_planes(clip_from_world);
+    if (!perspective) planes.pop_back();
+    return planes;
+}
+
+} // namespace
+
+LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+{
+    SceneGpu& scene = frame.resources;
+    LightMap out;
+    out.constants = fit_light_map(frame.scene, scene.bounds(), frame.view, frame.light, settings);
+    const shaders::LightMap& map = out.constants;
+    const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
+    out.depth = passes.transient({format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
+
+    gpu::Device& device = scene.device();
+    const gpu::Program& opaque = device.raster_program("src/shadow/parts/light_depth.vert", "");
+    const gpu::Program& masked = device.raster_program("src/shadow/parts/light_depth_masked.vert", "src/shadow/parts/light_depth_masked.frag");
+
+    gpu::RasterPass pass;
+    pass.name = "light map";
+    pass.program = &opaque;
+    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
+    pass.constants = depth_constants(map);
+    pass.textures = &scene.textures();
+    pass.depth = gpu::DepthTarget{out.depth};
+    pass.layers = map.layer_count;
+    pass.cull = settings.cull;
+    pass.depth_clamp = map.layers[0].perspective == 0;
+    pass.depth_bias = settings.slope_bias != 0.0f;
+    pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream()};
+    pass.draw = [&scene, &masked, &opaque, map, c = depth_constants(map), settings](gpu::Encoder& encoder) {
+        // reversed depth: away from the light is down
+        if (settings.slope_bias != 0.0f) encoder.depth_bias(0.0f, 0.0f, -settings.slope_bias);
+        for (uint32_t layer = 0; layer < map.layer_count; ++layer) {
+            const Planes planes = caster_planes(c.clip_from_world[layer], map.layers[layer].perspective != 0);
+            encoder.program(opaque);
+            scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .attributes = true, .layer = layer});
+            if (!scene.has(draw_masked)) continue;
+            encoder.program(masked);
+            scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .attributes = true, .layer = layer});
+        }
+    };
+    passes.raster(std::move(pass));
+    return out;
+}
+
+} // namespace gnomon::shadow::parts

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gpu/device.h"
+#include "gpu/pass_list.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace gnomon::shadow {
+
+/// Which triangles a draw takes.
+enum DrawSet : unsigned { draw_opaque = 1, draw_masked = 2, draw_blended = 4 };
+
+/// Six planes (n, d), inside where dot(n, p) + d >= 0; fewer where a side is open (an infinite far plane).
+using Planes = std::vector<vec4>;
+Planes frustum_planes(const mat4& clip_from_world); ///< left, right, bottom, top, near; reversed depth, no far plane
+
+/// The scene on the device: buffers made once, acceleration structures on first use. Keeps a reference to the scene.
+///   vertex stream 0: positions, vec3; stream 1: attributes {uint snorm16x2 octahedral normal; vec2 uv; uint rgba8 colour}
+///   instances: shaders/scene.glsl `Instance`, indexed by gl_InstanceIndex (sorted by mesh; the primitive ids are the scene's)
+class SceneGpu {
+public:
+    /// `previous`: the same scene at the previous frame's time, for motion; nullptr = nothing moves.
+    SceneGpu(gpu::Device&, const scene::Scene&, const scene::Scene* previous = nullptr);
+    ~SceneGpu();
+
+    const scene::Scene& scene() const;
+    gpu::Device& device() const;
+    const Bounds& bounds() const;
+    bool has(DrawSet) const; ///< whether the scene has any such triangle
+    bool emits() const;
+
+    gpu::Buffer& positions();
+    gpu::Buffer& attributes();
+    gpu::Buffer& indices();
+    gpu::Buffer& instances();
+    gpu::Buffer& materials();
+    gpu::Buffer& previous_positions(); ///< of the previous frame; the same as positions() where nothing moves
+    gpu::Buffer& previous_instances();
+    const gpu::TextureTable& textures() const;
+    const gpu::AccelerationStructure& tlas(); ///< opaque and masked triangles; instance custom index = instance slot
+
+    static gpu::VertexStream position_stream(); ///< location 0
+    static gpu::VertexStream attribute_stream(); ///< locations 1 normal (uint), 2 uv, 3 colour (uint)
+    static gpu::VertexStream previous_stream(); ///< location 4
+
+    struct DrawOptions {
+        unsigned sets = draw_opaque;
+        const Planes* cull = nullptr; ///< instances wholly outside are left out
+        bool cull_back_faces = false; ///< of single-sided materials; otherwise the encoder's cull mode is left alone
+        bool attributes = false; ///< binds stream 1
+        bool previous = false; ///< binds stream 2
+        const vec3* back_to_front_of = nullptr; ///< sorts instances by the distance of their centres from this eye
+        uint32_t layer = 0; ///< < 256; reaches the vertex shader in the top byte of gl_InstanceIndex (shaders/scene.glsl)
+    };
+    /// Draw calls for the chosen triangles inside a raster pass; returns the triangles sent.
+    uint64_t draw(gpu::Encoder&, const DrawOptions&);
+
+    struct Impl; ///< scene_gpu_impl.h
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::shadow

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_SHADOW_MAP_SHARED_H
+#define GNOMON_SHADOW_MAP_SHARED_H
+#include "shaders/frame.shared.h"
+#include "shaders/light_map.shared.h"
+
+TECHNIQUE_BEGIN(shadow_map)
+
+struct Params {
+    int map_size DEFAULT(1024);
+    int fit DEFAULT(1);
+    int depth DEFAULT(0);
+    int pcf DEFAULT(3);
+    int bilinear DEFAULT(1);
+    float bias_constant DEFAULT(0.0f);
+    float bias_slope DEFAULT(0.5f);
+    float normal_offset DEFAULT(1.0f);
+    int cull DEFAULT(0);
+};
+
+struct ResolveConstants {
+    View view;
+    Light light;
+    LightMap map;
+    Params params;
+};
+
+SHARED_END
+
+#endif

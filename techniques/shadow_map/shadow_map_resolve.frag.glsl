@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/light.glsl"
+#include "shaders/light_map.glsl"
+#include "shaders/receiver.glsl"
+#include "techniques/shadow_map/shadow_map.shared.h"
+
+layout(set = 0, binding = 0) uniform sampler2D depth_image;
+layout(set = 0, binding = 1) uniform usampler2D normal_image;
+layout(set = 0, binding = 2) uniform sampler2DArrayShadow map_image;
+layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
+
+layout(location = 0) out float visibility;
+
+void main()
+{
+    const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
+    visibility = 1.0;
+    if (r.background) return;
+    visibility = 0.0;
+    if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
+
+    const int index = select_layer(c.map.layout_kind, c.map.centre, r.p_world);
+    const LightMapLayer layer = c.map.layers[index];
+    // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a
+    // texel covers more depth (Holbert 2011, "Saying Goodbye to Shadow Acne").
+    const float cos_light = dot(r.n_geometric, to_light(c.light, r.p_world).xyz);
+    const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
+    const vec3 p = r.p_world + r.n_geometric * (c.params.normal_offset * texel * sqrt(max(0.0, 1.0 - cos_light * cos_light)));
+
+    const MapPoint m = project(layer, p);
+    const float z = max(0.0, stored_from_depth(layer, m.depth - c.params.bias_constant));
+    const float radius = 0.5 * float(c.params.pcf - 1);
+    float lit = 0.0;
+    for (int y = 0; y < c.params.pcf; ++y)
+        for (int x = 0; x < c.params.pcf; ++x) lit += compare_depth(map_image, index, m.uv + (vec2(x, y) - radius) / c.map.size, z);
+    visibility = lit / float(c.params.pcf * c.params.pcf);
+}
