@@ -77,13 +77,13 @@ Geometry::Geometry(const scene::Scene& s, size_t flatten_limit)
     }
     if (total >= 0xffffffffu) base::fail("the scene '{}' has {} triangles; at most {} can be traced", s.name, total, 0xfffffffeu);
 
+    first_primitives_ = s.first_primitives();
     Bounds bounds;
     world_.resize(s.instances.size());
     for (size_t i = 0; i < s.instances.size(); ++i) {
         const scene::Instance& instance = s.instances[i];
         const scene::Mesh& mesh = s.meshes[size_t(instance.mesh)];
         surfaces_.push_back({&s, &mesh, &s.materials[size_t(mesh.material)]});
-        first_primitives_.push_back(i == 0 ? 0 : first_primitives_[i - 1] + uint32_t(surfaces_[i - 1].mesh->triangle_count()));
         // A flat placement (scale 0) has no inverse, which an Embree instance would need.
         const bool flatten
             = total <= flatten_limit || uses[size_t(instance.mesh)] == 1 || glm::determinant(instance.world_from_object) == 0.0f;

@@ -109,7 +109,7 @@ vec4 base_color(const Surface& s, uint32_t triangle, float u, float v)
 float alpha(const Surface& s, uint32_t triangle, float u, float v)
 {
     const Corners c = corners(*s.mesh, triangle, u, v);
-    float a = s.material->base_color.a;
+    float a = s.material->base_color.w;
     if (const scene::Texture* t = base_texture(s))
         a *= filtered(*t, texture_coordinates(s, c), [](const uint8_t* p) { return float(p[3]) / 255.0f; });
     if (s.mesh->colors.empty()) return a;
