@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/rays.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::truth {
+
+using glm::dvec3;
+
+PixelRays::PixelRays(const scene::View& view)
+    : eye_(view.eye)
+    , near_(view.near)
+{
+    const mat4& m = view.view_from_world;
+    axis_ = glm::normalize(-dvec3(m[0][2], m[1][2], m[2][2]));
+    const auto w = float(view.size.width), h = float(view.size.height);
+    const scene::Ray corner[3] = {scene::view_ray(view, vec2(0, 0)), scene::view_ray(view, vec2(w, 0)), scene::view_ray(view, vec2(0, h))};
+    for (int k = 0; k < 3; ++k) {
+        origin_[k] = dvec3(corner[k].origin);
+        direction_[k] = dvec3(corner[k].direction) / glm::dot(dvec3(corner[k].direction), axis_);
+    }
+    for (dvec3* values : {origin_, direction_}) {
+        values[1] = (values[1] - values[0]) / double(w);
+        values[2] = (values[2] - values[0]) / double(h);
+    }
+}
+
+scene::Ray PixelRays::at(int x, int y) const
+{
+    const double px = x + 0.5, py = y + 0.5;
+    return {vec3(origin_[0] + px * origin_[1] + py * origin_[2]), vec3(direction_[0] + px * direction_[1] + py * direction_[2])};
+}
+
+float PixelRays::near_parameter(const scene::Ray& ray) const
+{
+    return std::max(0.0f, float(near_ - glm::dot(axis_, dvec3(ray.origin) - eye_)));
+}
+
+namespace {
+
+float largest(vec3 v)
+{
+    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
+
+} // namespace
+
+float surface_offset(vec3 p, float extent)
+{
+    constexpr float eps = 0x1p-24f; // half an ulp, relative
+    return eps * (8.0f * largest(p) + 16.0f * extent) + std::numeric_limits<float>::min();
+}
+
+Emitter::Emitter(const scene::Light& l)
+    : light(l)
+{
+    if (const auto* rect = std::get_if<scene::RectLight>(&l.shape)) {
+        normal = glm::normalize(glm::cross(rect->half_u, rect->half_v));
+        extent = largest(glm::abs(rect->half_u) + glm::abs(rect->half_v)) * 2.0f;
+    } else if (const auto* disk = std::get_if<scene::DiskLight>(&l.shape)) {
+        normal = disk->normal;
+        extent = 2.0f * disk->radius;
+    }
+    const vec4 sample = scene::light_point(l, vec3(0.125f, 0.25f, 0.375f), vec2(0.25f, 0.375f));
+    const vec3 checked = vec3(sample) + normal;
+    if (!(largest(checked) < 1e9f) || !(extent < 1e9f))
+        base::fail("the light '{}' has a position, direction or size that is not finite or beyond 1e9 m; state its numbers anew", l.name);
+}
+
+Packet::Packet()
+{
+    for (int i = 0; i < lanes; ++i) {
+        ray.org_x[i] = ray.org_y[i] = ray.org_z[i] = 0.0f;
+        ray.dir_x[i] = ray.dir_y[i] = ray.dir_z[i] = 1.0f;
+        ray.tnear[i] = ray.time[i] = ray.tfar[i] = 0.0f;
+        ray.mask[i] = 0xffffffffu, ray.id[i] = unsigned(i), ray.flags[i] = 0;
+        valid[i] = 0;
+    }
+}
+
+Path aim(const Receiver& r, const Emitter& e, vec4 light_point, Packet& packet, int lane)
+{
+    const vec3 l(light_point);
+    const bool point = light_point.w != 0.0f;
+    const vec3 towards = point ? l - r.p : l;
+    if (!(glm::dot(r.n, towards) > 0.0f)) return Path::dark;
+    const vec3 origin = r.p + r.offset * r.n;
+    vec3 direction = l;
+    if (point) {
+        const vec3 away = e.normal != vec3(0.0f) ? e.normal : -glm::normalize(towards);
+        direction = l + surface_offset(l, e.extent) * away - origin;
+        if (!(glm::dot(direction, towards) > 0.0f)) return Path::lit; // the light touches the surface: nothing fits between
+    }
+    packet.ray.org_x[lane] = origin.x, packet.ray.org_y[lane] = origin.y, packet.ray.org_z[lane] = origin.z;
+    packet.ray.dir_x[lane] = direction.x, packet.ray.dir_y[lane] = direction.y, packet.ray.dir_z[lane] = direction.z;
+    packet.ray.tnear[lane] = 0.0f;
+    packet.ray.tfar[lane] = point ? 1.0f - 0x1p-22f : std::numeric_limits<float>::infinity();
+    packet.valid[lane] = -1;
+    return Path::ray;
+}
+
+void trace(const Geometry& geometry, Quantity quantity, bool coherent, Packet& packet, vec3 (&through)[lanes])
+{
+    Transmission t;
+    rtcInitIntersectContext(&t.context);
+    if (coherent) t.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    const bool colored = quantity == Quantity::transmittance;
+    if (colored) std::fill(std::begin(t.product), std::end(t.product), vec3(1.0f));
+    rtcOccluded16(packet.valid, colored ? geometry.all() : geometry.solid(), &t.context, &packet.ray);
+    for (int i = 0; i < lanes; ++i) {
+        if (!packet.valid[i]) continue;
+        const bool hit = packet.ray.tfar[i] < 0.0f;
+        through[i] = hit ? vec3(0.0f) : colored ? t.product[i] : vec3(1.0f);
+    }
+}
+
+void aim_primary(const PixelRays& rays, base::Size size, int x0, int y0, RTCRayHit16& packet, int (&valid)[lanes])
+{
+    for (int i = 0; i < lanes; ++i) {
+        const int x = x0 + i % quad, y = y0 + i / quad;
+        const scene::Ray ray = rays.at(x, y);
+        packet.ray.org_x[i] = ray.origin.x, packet.ray.org_y[i] = ray.origin.y, packet.ray.org_z[i] = ray.origin.z;
+        packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y, packet.ray.dir_z[i] = ray.direction.z;
+        packet.ray.tnear[i] = rays.near_parameter(ray);
+        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        packet.ray.time[i] = 0.0f, packet.ray.mask[i] = 0xffffffffu, packet.ray.id[i] = unsigned(i), packet.ray.flags[i] = 0;
+        packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        valid[i] = x < size.width && y < size.height ? -1 : 0;
+    }
+}
+
+Receiver Receivers::at(size_t pixel)
+{
+    const std::vector<uint32_t>& first = geometry_.first_primitives();
+    const uint32_t id = primary_.primitive[pixel];
+    if (id < first[instance_] || (instance_ + 1 < first.size() && id >= first[instance_ + 1]))
+        instance_ = uint32_t(std::upper_bound(first.begin(), first.end(), id) - first.begin() - 1);
+    const float* p = primary_.position.values.data() + pixel * 3;
+    const float* n = primary_.normal.values.data() + pixel * 3;
+    const vec3 position(p[0], p[1], p[2]);
+    const float extent = geometry_.triangle(instance_, id - first[instance_]).extent();
+    return {position, vec3(n[0], n[1], n[2]), surface_offset(position, extent)};
+}
+
+} // namespace gnomon::truth
