@@ -76,7 +76,7 @@ Texture planks(std::string name, vec3 color, int boards, uint32_t seed)
         const float rings = 0.5f + 0.5f * std::sin((x * 9.0f + warp * 7.0f + float(board) * 2.3f) * 2.0f);
         const float fibre = value_noise(vec2(uv.x * 128.0f, uv.y * 8.0f), 128, seed + 3);
         const float gap = smooth_step(0.0f, 0.07f, std::min(fraction(x), 1.0f - fraction(x)));
-        return vec4(color * tone * (0.78f + 0.16f * rings + 0.14f * fibre) * (0.35f + 0.65f * gap), 1.0f);
+        return vec4(color * tone * (0.84f + 0.1f * rings + 0.14f * fibre) * (0.55f + 0.45f * gap), 1.0f);
     });
 }
 
