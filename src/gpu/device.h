@@ -19,6 +19,8 @@ namespace gnomon::gpu {
 
 class PassList;
 
+std::string baseline_text(); ///< the features that every device must have, in words
+
 /// What was found about one physical device. `missing` names the features of the baseline that it lacks (empty = usable).
 struct DeviceInfo {
     std::string name, driver; ///< driver: name and version as the driver words it
@@ -76,6 +78,7 @@ public:
     VkFormatFeatureFlags2 format_features(VkFormat) const; ///< optimal tiling
 
     Image image(const ImageDesc&);
+    Image adopt_image(VkImage, const ImageDesc&, VkImageLayout); ///< the handle stays the caller's (an engine's target, a swapchain image)
     Buffer buffer(const BufferDesc&);
     /// Uploads through a staging buffer and waits. `texels` tightly packed.
     void upload(Image&, std::span<const std::byte> texels, uint32_t layer = 0, uint32_t mip = 0);
@@ -86,8 +89,10 @@ public:
     /// Names are as in the table of embedded shaders: path without ".glsl" ("techniques/pcss/pcss_resolve.frag"). Programs live as
     /// long as the device; the same request returns the same program. Specialisation constants by id.
     const Program& compute_program(std::string_view shader, std::span<const SpecConstant> = {});
-    const Program& raster_program(std::string_view vertex, std::string_view fragment, std::span<const SpecConstant> = {}); ///< fragment "" = depth only
-    const Program& ray_program(std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders> hits, std::span<const SpecConstant> = {});
+    const Program& raster_program(
+        std::string_view vertex, std::string_view fragment, std::span<const SpecConstant> = {}); ///< fragment "" = depth only
+    const Program& ray_program(std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders> hits,
+        std::span<const SpecConstant> = {});
 
     /// Bottom-level structures with one geometry each, and a top level over instances. Throws where unsupported.
     AccelerationStructure build_blas(const BlasDesc&);
@@ -111,6 +116,8 @@ public:
 
 private:
     Device();
+    AccelerationStructure build(
+        VkAccelerationStructureTypeKHR, const VkAccelerationStructureGeometryKHR&, uint32_t primitives, const std::string& name);
     struct Impl;
     std::unique_ptr<Impl> impl_;
     friend class Image;
