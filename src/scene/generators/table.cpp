@@ -23,6 +23,8 @@ const std::vector<Builtin>& builtins()
             generators::open_mesh},
         {"colonnade", "A vaulted hall with sun through tall windows: arches, thin tracery, long shafts of light.", false, true,
             generators::colonnade},
+        {"duelling_frusta", "A long colonnade lit from ahead, against the view: the worst case of perspective warps.", false, true,
+            generators::duelling_frusta},
     };
     return table;
 }
