@@ -102,7 +102,7 @@ inline Path aim(const Receiver& r, const Emitter& e, vec4 light_point, Packet& p
 }
 
 /// Traces the valid lanes and stores what comes through: 0 or 1 in each channel, or the product of transmittances.
-void trace(const Geometry&, Quantity, bool coherent, Packet&, vec3 (&through)[lanes]);
+void trace(const Geometry&, Quantity, Packet&, vec3 (&through)[lanes]);
 
 /// Runs body(x0, y0, x1, y1) over all tiles.
 template <class Body> void for_tiles(base::Size size, int threads, Body body)

@@ -54,7 +54,7 @@ void SoftPixel::block(uint64_t pixel, const Receiver& r, int column0, int row0)
         through[i] = vec3(path == Path::lit ? 1.0f : 0.0f);
         any = any || path == Path::ray;
     }
-    if (any) trace(geometry_, quantity_, true, packet_, through);
+    if (any) trace(geometry_, quantity_, packet_, through);
     for (int i = 0; i < lanes; ++i) {
         const int column = column0 + i % quad, row = row0 + i / quad;
         if (column >= strata_.side || row >= strata_.side) continue;
@@ -109,7 +109,7 @@ void Job::hard(Receivers& receivers, Packet& packet, vec4 light_point, int x0, i
         through[i] = vec3(path == Path::lit ? 1.0f : 0.0f);
         any = any || path == Path::ray;
     }
-    if (any) trace(geometry, quantity, true, packet, through);
+    if (any) trace(geometry, quantity, packet, through);
     const int channels = out.mean.channels;
     for (int i = 0; i < lanes; ++i) {
         const int x = x0 + i % quad, y = y0 + i / quad;

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
 #include <fmt/format.h>
+#include <thread>
 #include <unistd.h>
 
 using namespace gnomon;

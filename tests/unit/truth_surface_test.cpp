@@ -197,6 +197,19 @@ TEST(TruthSurface, many_panes_are_all_counted)
     expect_near(through(panes(glass), light_of(scene::DirectionalLight{})), vec3(std::pow(0.95f, 40.0f)));
 }
 
+TEST(TruthSurface, rays_that_converge_from_all_octants_count_each_pane_once)
+{
+    const scene::Scene s = panes({blended({1, 1, 1, 0.5f})});
+    const truth::Tracer tracer(s);
+    scene::Camera c;
+    c.eye = {0, 0.4f, 0}, c.target = {0, 0, 0}, c.up = {0, 0, -1}, c.half_height = 1.0f;
+    const scene::View view = scene::make_view(c, {16, 16}, s.bounds());
+    const truth::Primary p = tracer.primary(view);
+    for (const float radius : {0.0f, 0.3f})
+        for (const float v : tracer.transmittance(view, p, light_of(scene::PointLight{vec3(0.03f, 4, 0.02f), radius}), {}).mean.values)
+            ASSERT_EQ(v, 0.5f);
+}
+
 TEST(TruthSurface, transmittance_without_glass_is_visibility)
 {
     const scene::Scene s = masked_scene(true);
