@@ -57,7 +57,8 @@ RawThroughput raw_packets(const Tracer& tracer, const scene::View& view, const s
     for_tiles(view.size, 1, [&](int x0, int y0, int x1, int y1) {
         for (int y = y0; y < y1; y += quad)
             for (int x = x0; x < x1; x += quad) {
-                aim_primary(rays, view.size, x, y, eye.emplace_back().rays, eye.back().valid);
+                EyePacket& seen = eye.emplace_back();
+                aim_primary(rays, view.size, x, y, seen.rays, seen.valid);
                 Packet& packet = shadow.emplace_back();
                 for (int i = 0; i < lanes; ++i) {
                     const int px = x + i % quad, py = y + i / quad;

@@ -40,19 +40,22 @@ void multiply(const RTCFilterFunctionNArguments* a)
 /// Beyond this Embree takes coordinates for infinite (1.8e18), and squares of differences would overflow.
 constexpr float farthest = 1e9f;
 
+float largest_extent(const scene::Mesh& mesh, const std::vector<vec3>& world)
+{
+    vec3 largest(0.0f);
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const vec3 a = world[mesh.indices[i]], b = world[mesh.indices[i + 1]], c = world[mesh.indices[i + 2]];
+        largest = glm::max(largest, glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c)));
+    }
+    return std::max(largest.x, std::max(largest.y, largest.z));
+}
+
 bool usable(vec3 p)
 {
     return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;
 }
 
 } // namespace
-
-float Geometry::Triangle::extent() const
-{
-    const vec3 low = glm::min(corner[0], glm::min(corner[1], corner[2])), high = glm::max(corner[0], glm::max(corner[1], corner[2]));
-    const vec3 d = high - low;
-    return std::max(d.x, std::max(d.y, d.z));
-}
 
 Geometry::Level::~Level()
 {
@@ -95,7 +98,9 @@ Geometry::Geometry(const scene::Scene& s, size_t flatten_limit)
                     mesh.name, s.name, world[v].x, world[v].y, world[v].z, farthest);
             bounds.add(world[v]);
         }
+        const float extent = largest_extent(mesh, world);
         if (flatten) world_[i] = std::move(world);
+        placed_.push_back({mesh.indices.data(), flatten ? world_[i].data() : nullptr, extent});
     }
     radius_ = bounds.radius();
     build(solid_, Casters::solid);
@@ -152,11 +157,12 @@ RTCGeometry Geometry::make_triangles(Casters casters, uint32_t instance, bool wo
 
 void Geometry::build(Level& level, Casters casters) const
 {
-    // Robust: no ray slips through the edge that two triangles share, or a closed box would leak.
+    // Robust: no ray slips through the edge that two triangles share, or a closed box would leak. The context's filter culls back
+    // faces on the camera's second try; with none set, allowing it costs nothing that can be measured.
     const auto new_scene = [&] {
         RTCScene scene = rtcNewScene(device_.get());
         check("make an acceleration structure");
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         return scene;
     };
     level.scene = new_scene();
@@ -188,15 +194,12 @@ void Geometry::build(Level& level, Casters casters) const
     check("build the acceleration structure");
 }
 
-Geometry::Triangle Geometry::triangle(uint32_t instance, uint32_t index) const
+Geometry::Triangle Geometry::transformed_triangle(uint32_t instance, const uint32_t* corners) const
 {
-    const scene::Mesh& mesh = *surfaces_[instance].mesh;
-    const std::vector<vec3>& world = world_[instance];
+    const std::vector<vec3>& positions = surfaces_[instance].mesh->positions;
+    const mat4& m = scene_.instances[instance].world_from_object;
     Triangle t;
-    for (size_t k = 0; k < 3; ++k) {
-        const uint32_t v = mesh.indices[size_t(index) * 3 + k];
-        t.corner[k] = !world.empty() ? world[v] : vec3(scene_.instances[instance].world_from_object * vec4(mesh.positions[v], 1.0f));
-    }
+    for (size_t k = 0; k < 3; ++k) t.corner[k] = vec3(m * vec4(positions[corners[k]], 1.0f));
     return t;
 }
 

@@ -30,11 +30,18 @@ public:
         std::array<vec3, 3> corner; ///< world
         /// Not normalised; points to the front.
         glm::dvec3 normal() const { return glm::cross(glm::dvec3(corner[1] - corner[0]), glm::dvec3(corner[2] - corner[0])); }
-        /// Bounds the rounding errors of a ray test against it: the largest coordinate difference.
-        float extent() const;
     };
-    Triangle triangle(uint32_t instance, uint32_t index) const;
+    Triangle triangle(uint32_t instance, uint32_t index) const
+    {
+        const Placed& p = placed_[instance];
+        const uint32_t* v = p.indices + size_t(index) * 3;
+        if (p.world) return {{p.world[v[0]], p.world[v[1]], p.world[v[2]]}};
+        return transformed_triangle(instance, v);
+    }
     const scene::Material& material(uint32_t instance) const { return *surfaces_[instance].material; }
+    /// The longest side of the bounds of any triangle of the instance, which bounds the rounding errors of a ray test against it and
+    /// its neighbours.
+    float extent(uint32_t instance) const { return placed_[instance].extent; }
     /// The instance of a hit: instanced hits name it in instID, flattened ones in geomID.
     static uint32_t instance(uint32_t geom_id, uint32_t inst_id) { return inst_id == RTC_INVALID_GEOMETRY_ID ? geom_id : inst_id; }
 
@@ -51,6 +58,13 @@ private:
         std::vector<RTCScene> children;
         ~Level();
     };
+    /// What is read at every hit, close together.
+    struct Placed {
+        const uint32_t* indices;
+        const vec3* world; ///< null where instanced
+        float extent;
+    };
+    Triangle transformed_triangle(uint32_t instance, const uint32_t* corners) const;
     bool takes(Casters, const scene::Material&) const;
     void build(Level&, Casters) const;
     RTCGeometry make_triangles(Casters, uint32_t instance, bool world) const;
@@ -59,6 +73,7 @@ private:
     const scene::Scene& scene_;
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device_;
     std::vector<Surface> surfaces_; ///< one an instance
+    std::vector<Placed> placed_; ///< likewise
     std::vector<std::vector<vec3>> world_; ///< positions of flattened instances with one element of padding; else empty
     std::vector<uint32_t> first_primitives_;
     float radius_ = 0.0f;

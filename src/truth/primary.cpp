@@ -2,6 +2,8 @@
 #include "base/progress.h"
 #include "truth/rays.h"
 
+#include <cmath>
+
 namespace gnomon::truth {
 
 namespace {
@@ -37,7 +39,9 @@ struct Tile {
     Primary& out;
 
     void trace(int x0, int y0) const;
-    void store(int x, int y, const RTCRayHit16& packet, int lane) const;
+    void store(int x0, int y0, const RTCRayHit16& packet, const int (&lanes_to_store)[lanes]) const;
+    /// Position and oriented normal, not yet of unit length.
+    void locate(const RTCRayHit16& packet, int lane, size_t pixel, vec3& normal) const;
 };
 
 dvec3 direction(const RTCRayHit16& packet, int i)
@@ -73,32 +77,46 @@ void Tile::trace(int x0, int y0) const
         c.geometry = &geometry;
         for (int i = 0; i < lanes; ++i) c.direction[i] = direction(second, i);
         rtcIntersect16(again, geometry.solid(), &c.context, &second);
-        for (int i = 0; i < lanes; ++i)
-            if (again[i]) store(x0 + i % quad, y0 + i / quad, second, i);
+        store(x0, y0, second, again);
     }
-    for (int i = 0; i < lanes; ++i)
-        if (valid[i] && !again[i]) store(x0 + i % quad, y0 + i / quad, packet, i);
+    for (int i = 0; i < lanes; ++i) valid[i] = valid[i] && !again[i] ? -1 : 0;
+    store(x0, y0, packet, valid);
 }
 
-void Tile::store(int x, int y, const RTCRayHit16& packet, int i) const
+void Tile::store(int x0, int y0, const RTCRayHit16& packet, const int (&chosen)[lanes]) const
 {
-    const uint32_t id = packet.hit.geomID[i];
-    if (id == RTC_INVALID_GEOMETRY_ID) return;
-    const uint32_t instance = Geometry::instance(id, packet.hit.instID[0][i]);
+    vec3 normal[lanes];
+    size_t pixel[lanes];
+    int count = 0;
+    for (int i = 0; i < lanes; ++i) {
+        if (!chosen[i] || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        pixel[count] = size_t(y0 + i / quad) * size_t(size.width) + size_t(x0 + i % quad);
+        locate(packet, i, pixel[count], normal[count]);
+        ++count;
+    }
+    // In a loop of their own the roots and divisions of all lanes overlap; they are the dearest part of a pixel.
+    for (int i = 0; i < count; ++i) {
+        const vec3 n = normal[i] * (1.0f / std::sqrt(glm::dot(normal[i], normal[i])));
+        for (int k = 0; k < 3; ++k) out.normal.values[pixel[i] * 3 + size_t(k)] = n[k];
+    }
+}
+
+void Tile::locate(const RTCRayHit16& packet, int i, size_t pixel, vec3& normal) const
+{
+    const uint32_t instance = Geometry::instance(packet.hit.geomID[i], packet.hit.instID[0][i]);
     const Geometry::Triangle t = geometry.triangle(instance, packet.hit.primID[i]);
     // From the barycentrics in double: an error in u and v moves the point inside the plane only, while one in the ray's
     // length would move it off.
     const double u = double(packet.hit.u[i]), v = double(packet.hit.v[i]);
     const vec3 p(dvec3(t.corner[0]) + u * dvec3(t.corner[1] - t.corner[0]) + v * dvec3(t.corner[2] - t.corner[0]));
-    dvec3 n = glm::normalize(t.normal());
-    if (glm::dot(n, direction(packet, i)) > 0.0) n = -n;
-    const size_t pixel = size_t(y) * size_t(size.width) + size_t(x);
     out.depth.values[pixel] = rays.depth(p);
-    for (int k = 0; k < 3; ++k) {
-        out.position.values[pixel * 3 + size_t(k)] = p[k];
-        out.normal.values[pixel * 3 + size_t(k)] = float(n[k]);
-    }
+    for (int k = 0; k < 3; ++k) out.position.values[pixel * 3 + size_t(k)] = p[k];
     out.primitive[pixel] = geometry.first_primitives()[instance] + packet.hit.primID[i];
+
+    dvec3 n = t.normal();
+    const double square = glm::dot(n, n);
+    if (square < 1e-30 || square > 1e30) n /= std::sqrt(square); // the square would leave the range of float
+    normal = vec3(glm::dot(n, direction(packet, i)) > 0.0 ? -n : n);
 }
 
 } // namespace

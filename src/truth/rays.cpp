@@ -26,17 +26,7 @@ PixelRays::PixelRays(const scene::View& view)
         values[1] = (values[1] - values[0]) / double(w);
         values[2] = (values[2] - values[0]) / double(h);
     }
-}
-
-scene::Ray PixelRays::at(int x, int y) const
-{
-    const double px = x + 0.5, py = y + 0.5;
-    return {vec3(origin_[0] + px * origin_[1] + py * origin_[2]), vec3(direction_[0] + px * direction_[1] + py * direction_[2])};
-}
-
-float PixelRays::near_parameter(const scene::Ray& ray) const
-{
-    return std::max(0.0f, float(near_ - glm::dot(axis_, dvec3(ray.origin) - eye_)));
+    near_ = std::max(0.0f, float(double(view.near) - glm::dot(axis_, origin_[0] - eye_)));
 }
 
 namespace {
@@ -48,12 +38,6 @@ float largest(vec3 v)
 
 } // namespace
 
-float surface_offset(vec3 p, float extent)
-{
-    constexpr float eps = 0x1p-24f; // half an ulp, relative
-    return eps * (8.0f * largest(p) + 16.0f * extent) + std::numeric_limits<float>::min();
-}
-
 Emitter::Emitter(const scene::Light& l)
     : light(l)
 {
@@ -63,10 +47,12 @@ Emitter::Emitter(const scene::Light& l)
     } else if (const auto* disk = std::get_if<scene::DiskLight>(&l.shape)) {
         normal = disk->normal;
         extent = 2.0f * disk->radius;
+    } else {
+        shorten = l.kind() != scene::LightKind::directional;
     }
     const vec4 sample = scene::light_point(l, vec3(0.125f, 0.25f, 0.375f), vec2(0.25f, 0.375f));
-    const vec3 checked = vec3(sample) + normal;
-    if (!(largest(checked) < 1e9f) || !(extent < 1e9f))
+    const vec3 checked = glm::abs(vec3(sample)) + glm::abs(normal) + extent; // written so that NaN fails
+    if (!(checked.x < 1e9f && checked.y < 1e9f && checked.z < 1e9f))
         base::fail("the light '{}' has a position, direction or size that is not finite or beyond 1e9 m; state its numbers anew", l.name);
 }
 
@@ -81,33 +67,14 @@ Packet::Packet()
     }
 }
 
-Path aim(const Receiver& r, const Emitter& e, vec4 light_point, Packet& packet, int lane)
-{
-    const vec3 l(light_point);
-    const bool point = light_point.w != 0.0f;
-    const vec3 towards = point ? l - r.p : l;
-    if (!(glm::dot(r.n, towards) > 0.0f)) return Path::dark;
-    const vec3 origin = r.p + r.offset * r.n;
-    vec3 direction = l;
-    if (point) {
-        const vec3 away = e.normal != vec3(0.0f) ? e.normal : -glm::normalize(towards);
-        direction = l + surface_offset(l, e.extent) * away - origin;
-        if (!(glm::dot(direction, towards) > 0.0f)) return Path::lit; // the light touches the surface: nothing fits between
-    }
-    packet.ray.org_x[lane] = origin.x, packet.ray.org_y[lane] = origin.y, packet.ray.org_z[lane] = origin.z;
-    packet.ray.dir_x[lane] = direction.x, packet.ray.dir_y[lane] = direction.y, packet.ray.dir_z[lane] = direction.z;
-    packet.ray.tnear[lane] = 0.0f;
-    packet.ray.tfar[lane] = point ? 1.0f - 0x1p-22f : std::numeric_limits<float>::infinity();
-    packet.valid[lane] = -1;
-    return Path::ray;
-}
-
-void trace(const Geometry& geometry, Quantity quantity, bool coherent, Packet& packet, vec3 (&through)[lanes])
+void trace(const Geometry& geometry, Quantity quantity, Packet& packet, vec3 (&through)[lanes])
 {
     Transmission t;
     rtcInitIntersectContext(&t.context);
-    if (coherent) t.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     const bool colored = quantity == Quantity::transmittance;
+    // Embree 3.13's coherent occlusion traversal takes a packet octant by octant, but tests all of its rays at each leaf: where rays
+    // converge on a light, the filter sees a crossing once an octant. That harms no yes-or-no answer, but it would square a pane.
+    if (!colored) t.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if (colored) std::fill(std::begin(t.product), std::end(t.product), vec3(1.0f));
     rtcOccluded16(packet.valid, colored ? geometry.all() : geometry.solid(), &t.context, &packet.ray);
     for (int i = 0; i < lanes; ++i) {
@@ -124,7 +91,7 @@ void aim_primary(const PixelRays& rays, base::Size size, int x0, int y0, RTCRayH
         const scene::Ray ray = rays.at(x, y);
         packet.ray.org_x[i] = ray.origin.x, packet.ray.org_y[i] = ray.origin.y, packet.ray.org_z[i] = ray.origin.z;
         packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y, packet.ray.dir_z[i] = ray.direction.z;
-        packet.ray.tnear[i] = rays.near_parameter(ray);
+        packet.ray.tnear[i] = rays.near_parameter();
         packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
         packet.ray.time[i] = 0.0f, packet.ray.mask[i] = 0xffffffffu, packet.ray.id[i] = unsigned(i), packet.ray.flags[i] = 0;
         packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -132,17 +99,13 @@ void aim_primary(const PixelRays& rays, base::Size size, int x0, int y0, RTCRayH
     }
 }
 
-Receiver Receivers::at(size_t pixel)
+void Receivers::find(uint32_t primitive)
 {
     const std::vector<uint32_t>& first = geometry_.first_primitives();
-    const uint32_t id = primary_.primitive[pixel];
-    if (id < first[instance_] || (instance_ + 1 < first.size() && id >= first[instance_ + 1]))
-        instance_ = uint32_t(std::upper_bound(first.begin(), first.end(), id) - first.begin() - 1);
-    const float* p = primary_.position.values.data() + pixel * 3;
-    const float* n = primary_.normal.values.data() + pixel * 3;
-    const vec3 position(p[0], p[1], p[2]);
-    const float extent = geometry_.triangle(instance_, id - first[instance_]).extent();
-    return {position, vec3(n[0], n[1], n[2]), surface_offset(position, extent)};
+    const auto next = std::upper_bound(first.begin(), first.end(), primitive);
+    end_ = next == first.end() ? no_primitive : *next;
+    first_ = *(next - 1);
+    extent_ = geometry_.extent(uint32_t(next - first.begin() - 1));
 }
 
 } // namespace gnomon::truth

@@ -30,6 +30,7 @@ private:
     const Emitter& emitter_;
     const Strata& strata_;
     Quantity quantity_;
+    Packet packet_;
     std::vector<float> values_[3];
 };
 
@@ -43,17 +44,17 @@ void SoftPixel::measure(uint64_t pixel, const Receiver& r, Estimate (&out)[3])
 /// Neighbouring strata share a packet, since their rays are alike.
 void SoftPixel::block(uint64_t pixel, const Receiver& r, int column0, int row0)
 {
-    Packet packet;
+    packet_.clear();
     vec3 through[lanes];
     bool any = false;
     for (int i = 0; i < lanes; ++i) {
         const int column = column0 + i % quad, row = row0 + i / quad;
         if (column >= strata_.side || row >= strata_.side) continue;
-        const Path path = aim(r, emitter_, scene::light_point(emitter_.light, r.p, strata_.point(pixel, column, row)), packet, i);
+        const Path path = aim(r, emitter_, scene::light_point(emitter_.light, r.p, strata_.point(pixel, column, row)), packet_, i);
         through[i] = vec3(path == Path::lit ? 1.0f : 0.0f);
         any = any || path == Path::ray;
     }
-    if (any) trace(geometry_, quantity_, true, packet, through);
+    if (any) trace(geometry_, quantity_, packet_, through);
     for (int i = 0; i < lanes; ++i) {
         const int column = column0 + i % quad, row = row0 + i / quad;
         if (column >= strata_.side || row >= strata_.side) continue;
@@ -65,14 +66,12 @@ void SoftPixel::block(uint64_t pixel, const Receiver& r, int column0, int row0)
 struct Job {
     const Geometry& geometry;
     const Emitter& emitter;
-    const Strata& strata;
-    const Primary& primary;
     base::Size size;
     Quantity quantity;
     Visibility& out;
 
     void soft(Receivers&, SoftPixel&, int x, int y) const;
-    void hard(Receivers&, int x0, int y0, int x1, int y1) const;
+    void hard(Receivers&, Packet&, vec4 light_point, int x0, int y0, int x1, int y1) const;
 };
 
 void Job::soft(Receivers& receivers, SoftPixel& pixel, int x, int y) const
@@ -93,9 +92,9 @@ void Job::soft(Receivers& receivers, SoftPixel& pixel, int x, int y) const
 }
 
 /// One ray a pixel; a packet is 4x4 pixels.
-void Job::hard(Receivers& receivers, int x0, int y0, int x1, int y1) const
+void Job::hard(Receivers& receivers, Packet& packet, vec4 light_point, int x0, int y0, int x1, int y1) const
 {
-    Packet packet;
+    packet.clear();
     vec3 through[lanes];
     bool any = false;
     for (int i = 0; i < lanes; ++i) {
@@ -105,13 +104,12 @@ void Job::hard(Receivers& receivers, int x0, int y0, int x1, int y1) const
         Path path = Path::lit;
         if (receivers.seen(index)) {
             const Receiver r = receivers.at(index);
-            path = scene::reaches(emitter.light, r.p) ? aim(r, emitter, scene::light_point(emitter.light, r.p, vec2(0.5f)), packet, i)
-                                                      : Path::dark;
+            path = scene::reaches(emitter.light, r.p) ? aim(r, emitter, light_point, packet, i) : Path::dark;
         }
         through[i] = vec3(path == Path::lit ? 1.0f : 0.0f);
         any = any || path == Path::ray;
     }
-    if (any) trace(geometry, quantity, true, packet, through);
+    if (any) trace(geometry, quantity, packet, through);
     const int channels = out.mean.channels;
     for (int i = 0; i < lanes; ++i) {
         const int x = x0 + i % quad, y = y0 + i / quad;
@@ -128,17 +126,19 @@ Visibility run(const Geometry& geometry, const scene::View& view, const Primary&
     const Strata strata(light.soft() ? settings.samples : 1, settings.seed);
     const int channels = quantity == Quantity::visibility ? 1 : 3;
     Visibility result{base::Picture(view.size, channels), base::Picture(view.size, channels), strata.count()};
-    const Job job{geometry, emitter, strata, primary, view.size, quantity, result};
+    const Job job{geometry, emitter, view.size, quantity, result};
+    const vec4 centre = scene::light_point(light, vec3(0.0f), vec2(0.5f)); // of a hard light: the same from everywhere
     base::Progress progress("tracing light samples", view.size.area());
     for_tiles(view.size, settings.threads, [&](int x0, int y0, int x1, int y1) {
         Receivers receivers(geometry, primary);
         SoftPixel pixel(geometry, emitter, strata, quantity);
+        Packet packet;
         for (int y = y0; y < y1; y += light.soft() ? 1 : quad)
             for (int x = x0; x < x1; x += light.soft() ? 1 : quad) {
                 if (light.soft())
                     job.soft(receivers, pixel, x, y);
                 else
-                    job.hard(receivers, x, y, x1, y1);
+                    job.hard(receivers, packet, centre, x, y, x1, y1);
             }
         progress.advance(uint64_t(x1 - x0) * uint64_t(y1 - y0));
     });
