@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 
+#include <array>
 #include <functional>
 
 namespace gnomon::gpu {
@@ -122,6 +123,22 @@ TEST_F(GpuRefusal, ARefusedListLeavesStatesTrue)
     list.clear(list.import(kept), {{4.0f, 0, 0, 0}});
     device().submit(std::move(list));
     EXPECT_EQ(device().read_back(kept).at(0, 0), 4.0f);
+}
+
+TEST_F(GpuRefusal, UploadInsideADrawFunction)
+{
+    Image target = image("target", VK_FORMAT_R8G8B8A8_UNORM, {4, 4});
+    Buffer numbers = storage<uint32_t>("numbers", 4);
+    expect_words(refusal([&](PassList& l) {
+        RasterPass pass;
+        pass.name = "draws";
+        pass.program = &device().raster_program("shaders/fullscreen.vert", "tests/gpu/flat.frag");
+        pass.constants = std::array<float, 4>{};
+        pass.colors.emplace_back().image = l.import(target);
+        pass.draw = [&](Encoder&) { device().read_back(numbers); };
+        l.raster(std::move(pass));
+    }),
+        {"numbers", "while a pass list is being recorded"});
 }
 
 TEST_F(GpuRefusal, UnknownDeviceNamesThePresentOnes)
