@@ -27,9 +27,18 @@ struct Metric {
     bool hard, soft; ///< for which lights it is reported
     double (*measure)(const Comparison&);
 };
-/// wrong_pixels, acne, leak (fractions of scored pixels; acne: test darker where truth is lit; leak: test lighter where truth is dark),
-/// wrong_outside_band (hard: wrong pixels with no true edge within the 3x3 neighbourhood, fraction), edge_displacement (pixels),
-/// mae, rms, max, bias (test - truth, mean), bias_penumbra, bias_outside, noise (RMS standard error of truth).
+/// All numbers are over scored pixels (none scored: 0); of three channels the mean is taken. A value of `test` that is not finite
+/// counts as the farthest one from truth.
+///
+/// | id | light | meaning |
+/// | wrong_pixels | hard | fraction with |test - truth| > 0.5; a filtered test of exactly 0.5 is right either way |
+/// | acne | hard | wrong and darker; soft: truth >= 0.999 and test < 0.9 |
+/// | leak | hard | wrong and lighter; soft: truth <= 0.001 and test > 0.1 |
+/// | wrong_outside_band | hard | fraction that is wrong although all scored pixels of its 3x3 neighbourhood have the same truth |
+/// | edge_displacement | hard | pixels from each edge of one picture to the nearest of the other, at most 32; mean over both ways |
+/// | mae, rms, max, bias | both | of test - truth |
+/// | bias_penumbra, bias_outside | soft | bias where truth is inside (0.001, 0.999), and elsewhere |
+/// | noise | soft | root of the mean variance of truth: differences below it say nothing |
 const std::vector<Metric>& metrics();
 
 /// All metrics that apply.
