@@ -26,7 +26,7 @@ Materials make_materials(Stage& s)
     m.plaster = s.material("plaster", vec3(0.85f), 0.95f, s.texture(mottled("plaster", {0.88f, 0.82f, 0.7f}, 0.12f, 6, 96)));
     m.timber = s.material("timber", vec3(0.7f), 0.8f, s.texture(planks("timber", {0.44f, 0.31f, 0.21f}, 2, 97)));
     m.planks = s.material("planks", vec3(0.85f), 0.75f, s.texture(planks("planks", {0.62f, 0.46f, 0.3f}, 6, 98)));
-    m.roof = s.material("roof tiles", vec3(0.85f), 0.8f, s.texture(roof_tiles("roof tiles", {0.68f, 0.36f, 0.25f}, 8, 10, 99)));
+    m.roof = s.material("roof tiles", vec3(0.85f), 0.8f, s.texture(roof_tiles("roof tiles", {0.64f, 0.38f, 0.28f}, 8, 10, 99)));
     m.slate = s.material("slates", vec3(0.85f), 0.6f, s.texture(roof_tiles("slates", {0.42f, 0.47f, 0.53f}, 8, 12, 100)));
     m.iron = s.material("iron", {0.1f, 0.1f, 0.105f}, 0.5f);
     m.brass = s.material("brass", {0.6f, 0.42f, 0.15f}, 0.35f);
@@ -56,10 +56,10 @@ void add_ground(Stage& stage, const Materials& m)
         const float worn = 0.1f * std::exp(-0.06f * x * x) * std::exp(-0.004f * (z + 4.0f) * (z + 4.0f)); // the way from the gate
         return 0.09f * (fractal_noise(vec2(x, z) * 0.45f + 64.0f, 256, 3, 111) - 0.5f) - worn + 0.03f;
     };
-    paving.height_field({-half_width - 1.0f, -half_depth - 3.5f}, {half_width + 1.0f, half_depth + 1.0f}, 48, 44, height);
+    paving.height_field({-half_width - 1.0f, -half_depth - 3.5f}, {half_width + 1.0f, half_depth + 1.0f}, 40, 36, height);
     stage.add("paving", std::move(paving));
     MeshBuilder grass = stage.builder(m.grass, 0.12f);
-    grass.height_field({-150, -150}, {150, 150}, 40, 40, [](float x, float z) {
+    grass.height_field({-150, -150}, {150, 150}, 26, 26, [](float x, float z) {
         const float d = std::max(0.0f, std::max(std::abs(x) - half_width, std::abs(z) - half_depth) - 8.0f);
         return -0.12f + d * (0.05f * (fractal_noise(vec2(x, z) * 0.02f + 16.0f, 64, 3, 112) - 0.42f)) - 0.0006f * d * d;
     });
@@ -69,12 +69,12 @@ void add_ground(Stage& stage, const Materials& m)
 void add_greenery(Stage& stage, const Materials& m)
 {
     const TreeShape shape{
-        .seed = 5, .trunk = 3.0f, .radius = 0.24f, .levels = 2, .branches = 7, .spread = 60, .reach = 0.72f, .lift = 0.3f};
+        .seed = 5, .trunk = 3.0f, .radius = 0.24f, .levels = 2, .branches = 6, .spread = 60, .reach = 0.74f, .lift = 0.3f};
     MeshBuilder wood = stage.builder(m.bark), leaves = stage.builder(m.leaves);
-    const int per_twig = std::max(1, int(std::lround(52.0f * stage.fineness() * stage.fineness())));
+    const int per_twig = std::max(1, int(std::lround(38.0f * stage.fineness() * stage.fineness())));
     const auto twigs = grow_tree(wood, shape, per_twig);
     Random random(113);
-    for (const Twig& t : twigs) add_leaf(leaves, t, 0.4f / stage.fineness(), {0, 3.4f, 0}, random);
+    for (const Twig& t : twigs) add_leaf(leaves, t, 0.45f / stage.fineness(), {0, 3.4f, 0}, random);
     const int wood_mesh = stage.mesh("tree", std::move(wood)), leaf_mesh = stage.mesh("leaves", std::move(leaves));
     const mat4 places[] = {at({-4.6f, 0, -7.4f}), at({13.2f, 0, 10.6f}) * turned(140) * scaled(vec3(1.15f)),
         at({24.5f, 0, -20.5f}) * turned(60) * scaled(vec3(1.3f))};
@@ -165,7 +165,7 @@ Scene citadel(double detail)
     add_greenery(stage, m);
     add_cloth(stage, m);
     stage.camera("courtyard", {5.2f, 3.0f, 12.6f}, {-1.0f, 3.1f, -4.0f}, 60);
-    stage.camera("bird's eye", {27.0f, 24.0f, 30.0f}, {-0.5f, 1.5f, -1.5f}, 45);
+    stage.camera("bird's eye", {8.0f, 25.0f, 35.0f}, {-1.0f, 1.0f, -1.5f}, 45);
     stage.camera("market", {1.6f, 1.6f, 3.6f}, {6.6f, 1.3f, -1.2f}, 55);
     stage.sun("sun", 38, 64, 0.0f, {1.0f, 0.9f, 0.74f});
     stage.sun("soft sun", 38, 64, 0.53f, {1.0f, 0.9f, 0.74f});

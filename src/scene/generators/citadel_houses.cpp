@@ -24,9 +24,9 @@ struct House {
 void add_frame(MeshBuilder& wood, float w, float bottom, float top, int panels)
 {
     const float half = 0.5f * w;
-    for (float y : {bottom, 0.5f * (bottom + top), top}) wood.box({0, y, 0}, {half, 0.09f, 0.07f}, 0.015f);
+    for (float y : {bottom, 0.5f * (bottom + top), top}) wood.box({0, y, 0}, {half, 0.09f, 0.07f});
     for (int i = 0; i <= panels; ++i)
-        wood.box({w * float(i) / float(panels) - half, 0.5f * (bottom + top), 0}, {0.09f, 0.5f * (top - bottom), 0.075f}, 0.015f);
+        wood.box({w * float(i) / float(panels) - half, 0.5f * (bottom + top), 0}, {0.09f, 0.5f * (top - bottom), 0.075f});
     const float step = w / float(panels);
     add_brace(wood, {-half, 0.5f * (bottom + top)}, {-half + step, bottom}, 0.14f, 0);
     add_brace(wood, {half, 0.5f * (bottom + top)}, {half - step, bottom}, 0.14f, 0);
@@ -60,14 +60,14 @@ void add_house(Builders& b, const mat4& base, const House& h, int panels)
     }
     b.wood.transform = base;
     for (int i = 0; i < 9; ++i)
-        b.wood.box({(float(i) - 4.0f) * (h.w / 8.4f), h.ground - 0.1f, hd + 0.15f}, {0.08f, 0.09f, 0.3f}, 0.02f); // jetty joists
+        b.wood.box({(float(i) - 4.0f) * (h.w / 8.4f), h.ground - 0.1f, hd + 0.15f}, {0.08f, 0.09f, 0.3f}); // jetty joists
     for (int i = 0; i < panels; i += 2) { // windows with open shutters
         const float x = h.w * (float(i) + 0.5f) / float(panels) - hw, y = h.ground + 0.62f * h.upper, z = hd + jetty + 0.02f;
         b.dark.box({x, y, z}, {0.3f, 0.4f, 0.03f});
         b.trim.box({x, y - 0.45f, z + 0.06f}, {0.42f, 0.05f, 0.12f}, 0.02f);
         for (float s : {-1.0f, 1.0f}) {
             b.wood.transform = base * at({x + s * 0.32f, y, z + 0.03f}) * turned(-s * 25.0f);
-            b.wood.box({s * 0.16f, 0, 0}, {0.16f, 0.42f, 0.02f}, 0.008f);
+            b.wood.box({s * 0.16f, 0, 0}, {0.16f, 0.42f, 0.02f});
         }
         b.wood.transform = base;
         b.wood.box({x, y, z + 0.03f}, {0.02f, 0.4f, 0.02f});

@@ -11,10 +11,10 @@ void add_crate(MeshBuilder& b, float s)
     const float h = 0.5f * s, board = 0.018f;
     b.box({0, h, 0}, {h - 2.0f * board, h - board, h - 2.0f * board});
     for (float x : {-1.0f, 1.0f}) {
-        for (float z : {-1.0f, 1.0f}) b.box({x * (h - 0.05f), h, z * (h - 0.05f)}, {0.05f, h, 0.05f}, 0.01f);
+        for (float z : {-1.0f, 1.0f}) b.box({x * (h - 0.05f), h, z * (h - 0.05f)}, {0.05f, h, 0.05f});
         for (float y : {0.06f, s - 0.06f}) {
-            b.box({0, y, x * (h - board)}, {h - 0.08f, 0.05f, board}, 0.006f);
-            b.box({x * (h - board), y, 0}, {board, 0.05f, h - 0.08f}, 0.006f);
+            b.box({0, y, x * (h - board)}, {h - 0.08f, 0.05f, board});
+            b.box({x * (h - board), y, 0}, {board, 0.05f, h - 0.08f});
         }
     }
 }
@@ -24,9 +24,9 @@ void add_barrel(MeshBuilder& wood, MeshBuilder& iron)
     wood.lathe({{0, 0.03f}, {0.26f, 0.03f}, {0.27f, 0}, {0.3f, 0}, {0.36f, 0.24f}, {0.385f, 0.45f}, {0.36f, 0.66f}, {0.3f, 0.9f},
                    {0.27f, 0.9f}, {0.26f, 0.85f}, {0, 0.85f}},
         16);
-    for (float y : {0.1f, 0.3f, 0.6f, 0.8f}) {
+    for (float y : {0.12f, 0.32f, 0.72f}) {
         const float r = 0.392f - 0.42f * (y - 0.45f) * (y - 0.45f);
-        iron.lathe({{r - 0.06f, y - 0.03f}, {r, y - 0.03f}, {r, y + 0.03f}, {r - 0.06f, y + 0.03f}, {r - 0.06f, y - 0.03f}}, 16);
+        iron.lathe({{r - 0.06f, y - 0.03f}, {r, y - 0.03f}, {r, y + 0.03f}, {r - 0.06f, y + 0.03f}, {r - 0.06f, y - 0.03f}}, 14);
     }
 }
 
@@ -35,13 +35,13 @@ void add_stall(MeshBuilder& wood, MeshBuilder& cloth)
 {
     constexpr float w = 1.6f, d = 1.1f;
     for (float x : {-w, w}) {
-        wood.box({x, 1.35f, -d}, {0.05f, 1.35f, 0.05f}, 0.012f);
-        wood.box({x, 1.1f, d}, {0.05f, 1.1f, 0.05f}, 0.012f);
+        wood.box({x, 1.35f, -d}, {0.05f, 1.35f, 0.05f});
+        wood.box({x, 1.1f, d}, {0.05f, 1.1f, 0.05f});
     }
     wood.box({0, 2.68f, -d}, {w + 0.15f, 0.04f, 0.04f}, 0.01f);
     wood.box({0, 2.18f, d}, {w + 0.15f, 0.04f, 0.04f}, 0.01f);
     wood.box({0, 0.88f, 0.55f}, {w - 0.1f, 0.035f, 0.45f}, 0.012f);
-    for (int i = 0; i < 8; ++i) wood.box({-w + 0.3f + 0.4f * float(i), 0.45f, 0.9f}, {0.18f, 0.4f, 0.02f}, 0.008f);
+    for (int i = 0; i < 8; ++i) wood.box({-w + 0.3f + 0.4f * float(i), 0.45f, 0.9f}, {0.18f, 0.4f, 0.02f});
     wood.box({0, 1.6f, -d + 0.15f}, {w - 0.1f, 0.025f, 0.2f}, 0.008f);
     const auto surface = [](float u, float v) {
         const float x = (2.0f * u - 1.0f) * (w + 0.2f), z = glm::mix(-d - 0.1f, d + 0.1f, v);
@@ -84,7 +84,7 @@ void add_stalls(Stage& stage, const Materials& m)
             for (int i = 0; i < 14; ++i) {
                 const vec3 p(-0.3f + 0.15f * float(i % 5) + 0.02f * random.next(), 0.075f + (i > 10 ? 0.09f : 0.0f),
                     -0.19f + 0.16f * float((i / 5) % 3) + 0.02f * random.next());
-                fruit.sphere(p, 0.062f + 0.01f * random.next(), 8);
+                fruit.sphere(p, 0.062f + 0.01f * random.next(), 6);
             }
         }
     }
@@ -150,7 +150,7 @@ void add_cart(Stage& stage, const Materials& m)
     for (float z : {-0.65f, 0.65f}) {
         wood.box({0, 0.42f, z}, {1.35f, 0.05f, 0.025f}, 0.01f);
         wood.box({0, 0.2f, z}, {1.35f, 0.07f, 0.02f}, 0.008f);
-        for (float x : {-1.25f, -0.4f, 0.4f, 1.25f}) wood.box({x, 0.25f, z}, {0.04f, 0.28f, 0.035f}, 0.01f);
+        for (float x : {-1.25f, -0.4f, 0.4f, 1.25f}) wood.box({x, 0.25f, z}, {0.04f, 0.28f, 0.035f});
         wood.tube({{1.2f, -0.08f, 0.7f * z}, {2.0f, -0.12f, 0.62f * z}, {3.1f, -0.42f, 0.6f * z}}, 0.055f, 0.035f, 8);
     }
     wood.box({-1.36f, 0.25f, 0}, {0.02f, 0.25f, 0.62f}, 0.008f);
@@ -186,7 +186,7 @@ void add_tents(Stage& stage, const Materials& m)
 {
     MeshBuilder cloth = stage.builder(m.tent_cloth), wood = stage.builder(m.timber), rope = stage.builder(m.rope);
     for (int k = 0; k < 2; ++k) {
-        const mat4 base = at(k == 0 ? vec3(-6.8f, 0, 9.6f) : vec3(-2.2f, 0, 11.4f)) * turned(k == 0 ? 150.0f : 185.0f)
+        const mat4 base = at(k == 0 ? vec3(-7.4f, 0, 4.6f) : vec3(-9.0f, 0, 9.8f)) * turned(k == 0 ? 125.0f : 100.0f)
             * scaled(vec3(k == 0 ? 1.0f : 0.85f));
         cloth.transform = wood.transform = rope.transform = base;
         // A wall below and a cone above, open by a slit at the front; the edge is scalloped between twelve guys.
@@ -228,10 +228,10 @@ void add_goods(Stage& stage, const Materials& m)
         float x, z, turn, y;
     };
     const Spot crates[] = {{4.0f, -9.6f, 10, 0}, {4.9f, -9.9f, -6, 0}, {4.3f, -9.7f, 30, 0.8f}, {-7.4f, -3.4f, 20, 0}, {10.8f, 3.6f, 5, 0},
-        {11.0f, 4.5f, -12, 0}, {10.9f, 3.9f, 25, 0.8f}, {-9.9f, 5.0f, 8, 0}, {3.4f, 0.4f, 42, 0}};
+        {11.0f, 4.5f, -12, 0}, {10.9f, 3.9f, 25, 0.8f}, {-10.4f, 0.2f, 8, 0}, {3.4f, 0.4f, 42, 0}};
     for (const Spot& s : crates) stage.place(crate_mesh, at({s.x, s.y, s.z}) * turned(s.turn));
     const Spot barrels[] = {{-6.4f, -4.3f, 0, 0}, {-5.6f, -4.6f, 30, 0}, {-6.0f, -3.7f, 60, 0}, {4.1f, 1.0f, 10, 0}, {4.6f, 0.3f, 80, 0},
-        {12.4f, -7.9f, 0, 0}, {13.2f, -8.1f, 40, 0}, {-10.3f, 4.0f, 0, 0}, {11.5f, -1.3f, 20, 0}};
+        {12.4f, -7.9f, 0, 0}, {13.2f, -8.1f, 40, 0}, {-10.5f, -0.9f, 0, 0}, {11.5f, -1.3f, 20, 0}};
     for (const Spot& s : barrels)
         for (int part : {barrel_mesh, hoops_mesh}) stage.place(part, at({s.x, s.y, s.z}) * turned(s.turn));
     for (int part : {barrel_mesh, hoops_mesh}) stage.place(part, at({5.3f, 0.385f, 1.6f}) * turned(25) * turned(90, vec3(0, 0, 1)));

@@ -11,7 +11,7 @@ namespace {
 void add_window(MeshBuilder& stone, MeshBuilder& dark, float x, float y, float w, float h)
 {
     dark.box({x, y, 0}, {0.5f * w, 0.5f * h, 0.03f});
-    for (float side : {-1.0f, 1.0f}) stone.box({x + side * (0.5f * w + 0.09f), y, 0}, {0.09f, 0.5f * h + 0.05f, 0.12f}, 0.02f);
+    for (float side : {-1.0f, 1.0f}) stone.box({x + side * (0.5f * w + 0.09f), y, 0}, {0.09f, 0.5f * h + 0.05f, 0.12f});
     stone.box({x, y + 0.5f * h + 0.1f, 0}, {0.5f * w + 0.25f, 0.11f, 0.14f}, 0.03f);
     stone.box({x, y - 0.5f * h - 0.08f, 0}, {0.5f * w + 0.25f, 0.08f, 0.17f}, 0.03f);
 }
@@ -34,7 +34,7 @@ void add_wall(MeshBuilder& wall, MeshBuilder& trim, float length)
     wall.transform = saved * at({0, h + 1.05f, -d + 0.22f});
     add_merlons(wall, length, 0.22f);
     wall.transform = saved;
-    for (float x = -half + 1.5f; x < half; x += 3.0f) trim.box({x, h - 0.22f, 0.1f}, {0.16f, 0.22f, 0.2f}, 0.05f); // corbels
+    for (float x = -half + 1.5f; x < half; x += 3.0f) trim.box({x, h - 0.22f, 0.1f}, {0.16f, 0.22f, 0.2f}); // corbels
 }
 
 } // namespace
@@ -46,7 +46,7 @@ void add_merlons(MeshBuilder& b, float length, float depth)
     for (int i = 0; i < count; ++i) {
         const float x = pitch * (float(i) + 0.5f) - 0.5f * length;
         b.box({x, 0.42f, 0}, {0.29f * pitch, 0.42f, depth}, 0.05f);
-        b.box({x, 0.88f, 0}, {0.33f * pitch, 0.07f, depth + 0.06f}, 0.03f);
+        b.box({x, 0.88f, 0}, {0.33f * pitch, 0.07f, depth + 0.06f});
     }
 }
 
@@ -74,19 +74,19 @@ void add_towers(Stage& stage, const Materials& m)
     MeshBuilder body = stage.builder(m.wall, 0.33f);
     body.lathe({{0, -0.2f}, {r + 0.55f, -0.2f}, {r + 0.05f, 2.0f}, {r, 2.0f}, {r, h - 1.0f}, {r + 0.5f, h - 0.4f}, {r + 0.5f, h + 0.7f},
                    {r + 0.1f, h + 0.7f}, {r + 0.1f, h}, {0, h}},
-        32);
+        28);
     for (int i = 0; i < 12; ++i) {
         body.transform = turned(30.0f * float(i)) * at({0, h + 0.7f, r + 0.3f});
         body.box({0, 0.4f, 0}, {0.45f, 0.4f, 0.2f}, 0.05f);
     }
     MeshBuilder trim = stage.builder(m.dressed, 0.5f), dark = stage.builder(m.dark);
-    trim.lathe({{r - 0.1f, 6.0f}, {r + 0.14f, 6.0f}, {r + 0.14f, 6.22f}, {r - 0.1f, 6.22f}, {r - 0.1f, 6.0f}}, 32);
-    for (int i = 0; i < 24; ++i) { // corbels under the parapet
-        trim.transform = turned(15.0f * float(i)) * at({0, h - 0.75f, r + 0.16f});
-        trim.box(vec3(0), {0.12f, 0.28f, 0.2f}, 0.05f);
+    trim.lathe({{r - 0.1f, 6.0f}, {r + 0.14f, 6.0f}, {r + 0.14f, 6.22f}, {r - 0.1f, 6.22f}, {r - 0.1f, 6.0f}}, 28);
+    for (int i = 0; i < 18; ++i) { // corbels under the parapet
+        trim.transform = turned(20.0f * float(i)) * at({0, h - 0.75f, r + 0.16f});
+        trim.box(vec3(0), {0.13f, 0.28f, 0.2f});
     }
-    for (int i = 0; i < 8; ++i) {
-        trim.transform = dark.transform = turned(45.0f * float(i) + 22.5f) * at({0, i % 2 ? 7.6f : 4.1f, r - 0.01f});
+    for (int i = 0; i < 6; ++i) {
+        trim.transform = dark.transform = turned(60.0f * float(i) + 22.5f) * at({0, i % 2 ? 7.6f : 4.1f, r - 0.01f});
         add_window(trim, dark, 0, 0, 0.28f, 1.1f);
     }
     MeshBuilder roof = stage.builder(m.roof, 0.4f), wood = stage.builder(m.timber, 0.7f);
@@ -95,7 +95,7 @@ void add_towers(Stage& stage, const Materials& m)
         32);
     for (int i = 0; i < 8; ++i) {
         wood.transform = turned(45.0f * float(i)) * at({0, h, r - 0.35f});
-        wood.box({0, 1.1f, 0}, {0.09f, 1.1f, 0.09f}, 0.015f);
+        wood.box({0, 1.1f, 0}, {0.09f, 1.1f, 0.09f});
     }
     wood.transform = mat4(1);
     wood.cylinder({0, h + 7.3f, 0}, 0.05f, 2.2f, 8);
@@ -167,12 +167,12 @@ void add_keep(Stage& stage, const Materials& m)
     trim.box({0, h - 0.1f, 0}, {half + 0.3f, 0.16f, half + 0.3f}, 0.05f);
     for (int corner = 0; corner < 4; ++corner) { // quoins, long and short by turns
         const vec2 c(corner & 1 ? half : -half, corner & 2 ? half : -half);
-        for (int i = 0; i < 21; ++i) {
+        for (int i = 0; i < 16; ++i) {
             const bool odd = i & 1;
             const vec2 size(odd ? 0.55f : 0.36f, odd ? 0.36f : 0.55f);
             trim.tint = vec3(0.88f + 0.12f * hash01(uint32_t(i), uint32_t(corner), 81));
-            trim.box({c.x - glm::sign(c.x) * (size.x - 0.07f), 1.5f + 0.6f * float(i), c.y - glm::sign(c.y) * (size.y - 0.07f)},
-                {size.x, 0.285f, size.y}, 0.04f);
+            trim.box({c.x - glm::sign(c.x) * (size.x - 0.07f), 1.6f + 0.78f * float(i), c.y - glm::sign(c.y) * (size.y - 0.07f)},
+                {size.x, 0.375f, size.y}, 0.045f);
         }
     }
     trim.tint = vec3(1);
@@ -189,7 +189,7 @@ void add_keep(Stage& stage, const Materials& m)
     wood.box({0, 1.45f, 0.05f}, {0.8f, 1.4f, 0.1f}, 0.03f);
     wood.box({0, 7.0f, 0.75f}, {3.2f, 0.08f, 0.75f}, 0.02f);
     wood.box({0, 7.95f, 1.42f}, {3.2f, 0.06f, 0.06f}, 0.015f);
-    for (int i = 0; i < 13; ++i) wood.box({-3.1f + 0.516f * float(i), 7.5f, 1.42f}, {0.04f, 0.45f, 0.04f}, 0.01f);
+    for (int i = 0; i < 13; ++i) wood.box({-3.1f + 0.516f * float(i), 7.5f, 1.42f}, {0.04f, 0.45f, 0.04f});
     for (float x : {-2.8f, 0.0f, 2.8f})
         wood.hexahedron({{x - 0.1f, 5.6f, 0}, {x + 0.1f, 5.6f, 0}, {x - 0.1f, 5.9f, 0}, {x + 0.1f, 5.9f, 0}, {x - 0.1f, 6.75f, 1.3f},
             {x + 0.1f, 6.75f, 1.3f}, {x - 0.1f, 6.95f, 1.3f}, {x + 0.1f, 6.95f, 1.3f}});
