@@ -128,8 +128,12 @@ try {
     check_header(exr.header, file.size(), name);
     for (int c = 0; c < exr.header.num_channels; ++c)
         if (exr.header.pixel_types[c] == TINYEXR_PIXELTYPE_HALF) exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
-    if (LoadEXRImageFromMemory(&exr.image, &exr.header, data, file.size(), &message) != TINYEXR_SUCCESS || !exr.image.images)
+    // tinyexr 1.0.1 frees the image on failure but leaves its pointers, and forgets the planes unless their number is set.
+    exr.image.num_channels = exr.header.num_channels;
+    if (LoadEXRImageFromMemory(&exr.image, &exr.header, data, file.size(), &message) != TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.image);
         fail("cannot read '{}': {}", name, take(message));
+    }
 
     const auto channels = size_t(exr.header.num_channels);
     std::vector<size_t> order(channels);

@@ -7,6 +7,7 @@
 
 #include <volk.h>
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 namespace gnomon::gpu {
 
 class PassList;
+
+std::string baseline_text(); ///< the features that every device must have, in words
 
 /// What was found about one physical device. `missing` names the features of the baseline that it lacks (empty = usable).
 struct DeviceInfo {
@@ -52,6 +55,7 @@ struct PassTime {
 struct Submitted {
     std::vector<PassTime> times; ///< in the order of the list
     uint64_t transient_bytes; ///< memory of the list's transients
+    std::map<std::string, uint64_t> group_bytes; ///< the same by the group (PassList::group) that made them
 };
 
 /// Every failed Vulkan call throws base::Error with the call's name, the result and what to do (out of memory: smaller sizes;
@@ -74,6 +78,7 @@ public:
     VkFormatFeatureFlags2 format_features(VkFormat) const; ///< optimal tiling
 
     Image image(const ImageDesc&);
+    Image adopt_image(VkImage, const ImageDesc&, VkImageLayout); ///< the handle stays the caller's (an engine's target, a swapchain image)
     Buffer buffer(const BufferDesc&);
     /// Uploads through a staging buffer and waits. `texels` tightly packed.
     void upload(Image&, std::span<const std::byte> texels, uint32_t layer = 0, uint32_t mip = 0);
@@ -84,8 +89,10 @@ public:
     /// Names are as in the table of embedded shaders: path without ".glsl" ("techniques/pcss/pcss_resolve.frag"). Programs live as
     /// long as the device; the same request returns the same program. Specialisation constants by id.
     const Program& compute_program(std::string_view shader, std::span<const SpecConstant> = {});
-    const Program& raster_program(std::string_view vertex, std::string_view fragment, std::span<const SpecConstant> = {}); ///< fragment "" = depth only
-    const Program& ray_program(std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders> hits, std::span<const SpecConstant> = {});
+    const Program& raster_program(
+        std::string_view vertex, std::string_view fragment, std::span<const SpecConstant> = {}); ///< fragment "" = depth only
+    const Program& ray_program(std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders> hits,
+        std::span<const SpecConstant> = {});
 
     /// Bottom-level structures with one geometry each, and a top level over instances. Throws where unsupported.
     AccelerationStructure build_blas(const BlasDesc&);
@@ -94,7 +101,8 @@ public:
     /// Records, submits, waits, reads the timestamps. The list is consumed.
     Submitted submit(PassList&&);
     /// Records into a command buffer of the caller's; no submit, no wait. Transients live until `retire`, whose ticket the caller
-    /// passes once that command buffer has finished.
+    /// passes once that command buffer has finished. The list's images and buffers then stand as after the list: submit that command
+    /// buffer before anything else here uses them.
     uint64_t record(PassList&&, VkCommandBuffer);
     void retire(uint64_t ticket);
 
@@ -109,6 +117,8 @@ public:
 
 private:
     Device();
+    AccelerationStructure build(
+        VkAccelerationStructureTypeKHR, const VkAccelerationStructureGeometryKHR&, uint32_t primitives, const std::string& name);
     struct Impl;
     std::unique_ptr<Impl> impl_;
     friend class Image;

@@ -18,20 +18,33 @@
 // measured is what was written.
 namespace gnomon::gpu {
 
-struct ImageId { uint32_t index = ~0u; bool operator==(const ImageId&) const = default; explicit operator bool() const { return index != ~0u; } };
-struct BufferId { uint32_t index = ~0u; bool operator==(const BufferId&) const = default; explicit operator bool() const { return index != ~0u; } };
+struct ImageId {
+    uint32_t index = ~0u;
+    bool operator==(const ImageId&) const = default;
+    explicit operator bool() const { return index != ~0u; }
+};
+struct BufferId {
+    uint32_t index = ~0u;
+    bool operator==(const BufferId&) const = default;
+    explicit operator bool() const { return index != ~0u; }
+};
 
 /// How a pass uses an image or a buffer.
 enum class Use : uint8_t {
-    sample,       ///< sampled image (also texelFetch)
-    load,         ///< storage image or buffer, read only
-    store,        ///< storage image or buffer, written (old content not needed)
-    update,       ///< storage image or buffer, read and written (atomics)
-    uniform,      ///< uniform buffer
-    copy_from, copy_to,
-    color, depth, depth_test, ///< attachments; made by RasterPass
-    vertex, index, indirect,  ///< buffers
-    trace,        ///< acceleration structure input buffers
+    sample, ///< sampled image (also texelFetch)
+    load, ///< storage image or buffer, read only
+    store, ///< storage image or buffer, written (old content not needed)
+    update, ///< storage image or buffer, read and written (atomics)
+    uniform, ///< uniform buffer
+    copy_from,
+    copy_to,
+    color,
+    depth,
+    depth_test, ///< attachments; made by RasterPass
+    vertex,
+    index,
+    indirect, ///< buffers
+    trace, ///< acceleration structure input buffers
 };
 
 /// One entry of set 0.
@@ -45,23 +58,53 @@ struct Binding {
     uint32_t first_layer = 0, layer_count = VK_REMAINING_ARRAY_LAYERS, first_mip = 0, mip_count = VK_REMAINING_MIP_LEVELS;
     VkImageAspectFlags aspect = 0; ///< default: colour or depth by the format
 
-    Binding(ImageId i, Use u, Sampler s = Sampler::nearest_clamp) : image(i), use(u), sampler(s) {}
-    Binding(BufferId b, Use u) : buffer(b), use(u) {}
-    Binding(const AccelerationStructure& a) : accel(&a), use(Use::load) {}
-    Binding& layers(uint32_t first, uint32_t count, VkImageViewType type = VK_IMAGE_VIEW_TYPE_MAX_ENUM) { first_layer = first, layer_count = count, view = type; return *this; }
-    Binding& mips(uint32_t first, uint32_t count) { first_mip = first, mip_count = count; return *this; }
-    Binding& as(VkImageViewType type) { view = type; return *this; }
+    Binding(ImageId i, Use u, Sampler s = Sampler::nearest_clamp)
+        : image(i)
+        , use(u)
+        , sampler(s)
+    {
+    }
+    Binding(BufferId b, Use u)
+        : buffer(b)
+        , use(u)
+    {
+    }
+    Binding(const AccelerationStructure& a)
+        : accel(&a)
+        , use(Use::load)
+    {
+    }
+    Binding& layers(uint32_t first, uint32_t count, VkImageViewType type = VK_IMAGE_VIEW_TYPE_MAX_ENUM)
+    {
+        first_layer = first, layer_count = count, view = type;
+        return *this;
+    }
+    Binding& mips(uint32_t first, uint32_t count)
+    {
+        first_mip = first, mip_count = count;
+        return *this;
+    }
+    Binding& as(VkImageViewType type)
+    {
+        view = type;
+        return *this;
+    }
 };
 
 /// Bytes of a constants struct (scalar layout = the C++ layout of 4-byte members).
 struct Constants {
     std::vector<std::byte> bytes;
     Constants() = default;
-    template <class T> requires std::is_trivially_copyable_v<T>
-    Constants(const T& v) : bytes(reinterpret_cast<const std::byte*>(&v), reinterpret_cast<const std::byte*>(&v) + sizeof(T)) {}
+    template <class T>
+    requires std::is_trivially_copyable_v<T> Constants(const T& v)
+        : bytes(reinterpret_cast<const std::byte*>(&v), reinterpret_cast<const std::byte*>(&v) + sizeof(T))
+    {
+    }
 };
 
-struct Threads { uint32_t x = 1, y = 1, z = 1; };
+struct Threads {
+    uint32_t x = 1, y = 1, z = 1;
+};
 
 struct ComputePass {
     std::string name;
@@ -117,15 +160,19 @@ public:
     virtual ~Encoder() = default;
     virtual void vertex_buffer(uint32_t stream, const Buffer&, uint64_t offset = 0) = 0;
     virtual void index_buffer(const Buffer&, uint64_t offset = 0) = 0; ///< uint32
+    virtual void vertex_buffer(uint32_t stream, BufferId, uint64_t offset = 0) = 0; ///< of this list; the pass names it in `buffers`
+    virtual void index_buffer(BufferId, uint64_t offset = 0) = 0;
     virtual void cull(VkCullModeFlags) = 0; ///< dynamic; the pass's `cull` at first
     virtual void depth_bias(float constant, float clamp, float slope) = 0; ///< dynamic; 0 at first
     virtual void scissor(int x, int y, uint32_t width, uint32_t height) = 0;
     virtual void viewport(float x, float y, float width, float height) = 0;
     virtual void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0, uint32_t first_instance = 0) = 0;
-    virtual void draw_indexed(uint32_t indices, uint32_t instances, uint32_t first_index, int32_t vertex_offset, uint32_t first_instance) = 0;
+    virtual void draw_indexed(uint32_t indices, uint32_t instances, uint32_t first_index, int32_t vertex_offset, uint32_t first_instance)
+        = 0;
     virtual void draw_indexed_indirect(BufferId, uint64_t offset, uint32_t count, uint32_t stride) = 0;
     virtual void draw_indirect(BufferId, uint64_t offset, uint32_t count, uint32_t stride) = 0;
-    virtual void program(const Program&) = 0; ///< another program with the same set 0 and constants, in the same pass (masked beside opaque)
+    virtual void program(const Program&)
+        = 0; ///< another program with the same set 0 and constants, in the same pass (masked beside opaque)
     virtual VkCommandBuffer handle() = 0;
 };
 

@@ -38,6 +38,7 @@ struct ReflectedBinding {
     uint32_t count; ///< 0 = runtime array
     VkShaderStageFlags stages;
     std::string name;
+    VkImageViewType view = VK_IMAGE_VIEW_TYPE_MAX_ENUM; ///< images: what the shader declares
 };
 
 /// Shaders with their reflected interface; pipelines are made on first use. Owned by the device.

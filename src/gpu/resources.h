@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gnomon::gpu {
 
@@ -23,18 +24,25 @@ struct ImageDesc {
     bool cube = false;
     std::string name;
 };
-uint64_t texel_bytes(VkFormat);
+uint64_t texel_bytes(VkFormat); ///< of a copy; of the depth aspect where there is one
 bool is_depth(VkFormat);
+bool has_stencil(VkFormat);
 
-/// Where an image or buffer stands between pass lists: kept by its owner, changed by submit.
-struct ImageState {
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
-};
+/// Where a buffer, or one layer and mip of an image, stands between pass lists: kept by its owner, changed by submit. The last write,
+/// and the reads since, which a later write has to wait for.
 struct BufferState {
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
+    VkPipelineStageFlags2 write_stages = 0, read_stages = 0;
+    VkAccessFlags2 write_access = 0, read_access = 0;
+    bool operator==(const BufferState&) const = default;
+};
+struct SubresourceState : BufferState {
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    bool operator==(const SubresourceState&) const = default;
+};
+struct ImageState {
+    uint32_t layers = 1, mips = 1;
+    std::vector<SubresourceState> parts = std::vector<SubresourceState>(1); ///< one while uniform, else [layer * mips + mip]
+    SubresourceState& part(uint32_t layer, uint32_t mip) { return parts.size() == 1 ? parts[0] : parts[layer * mips + mip]; }
 };
 
 /// Move-only owner; the memory is given back once the device is past its last use. Must not outlive its Device.
@@ -46,10 +54,12 @@ public:
     ~Image();
     const ImageDesc& desc() const;
     VkImage handle() const;
+    uint64_t bytes() const; ///< of device memory
     explicit operator bool() const;
     /// A view of a range, made on first use and kept by the image.
-    VkImageView view(VkImageViewType, uint32_t first_layer, uint32_t layer_count, uint32_t first_mip, uint32_t mip_count, VkImageAspectFlags) const;
-    ImageState& state();
+    VkImageView view(
+        VkImageViewType, uint32_t first_layer, uint32_t layer_count, uint32_t first_mip, uint32_t mip_count, VkImageAspectFlags) const;
+    ImageState& state() const;
 
 private:
     friend class Device;
@@ -77,7 +87,7 @@ public:
     VkDeviceAddress address() const;
     std::byte* mapped() const; ///< nullptr for device memory
     explicit operator bool() const;
-    BufferState& state();
+    BufferState& state() const;
 
 private:
     friend class Device;
@@ -86,7 +96,16 @@ private:
 };
 
 /// Fixed samplers. compare_*: depth compare GREATER_OR_EQUAL (reversed depth: 1 = lit), border 0 (nothing there: lit).
-enum class Sampler : uint8_t { nearest_clamp, linear_clamp, nearest_repeat, linear_repeat, nearest_mirror, linear_mirror, compare_nearest, compare_linear };
+enum class Sampler : uint8_t {
+    nearest_clamp,
+    linear_clamp,
+    nearest_repeat,
+    linear_repeat,
+    nearest_mirror,
+    linear_mirror,
+    compare_nearest,
+    compare_linear
+};
 
 /// All textures of a scene as one descriptor array: `layout(set = 2, binding = 0) uniform sampler2D textures[];`
 class TextureTable {

@@ -66,6 +66,11 @@ std::string_view kind_name(LightKind); ///< "directional", "spot", "point", "rec
 /// Mirrored by shaders/light.glsl and tested against it.
 vec4 light_point(const Light&, vec3 p_world, vec2 u);
 
+/// Shirley and Chiu's concentric map of [0,1)^2 onto the unit disk: equal area, and neighbours stay neighbours.
+vec2 square_to_disk(vec2 u);
+/// Right-handed orthonormal columns (tangent, bitangent, n) about a unit n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+mat3 basis_about(vec3 n);
+
 /// Whether the light sends anything towards p at all: spot cone, the emitting side of rect and disk. Shadow aside.
 bool reaches(const Light&, vec3 p_world);
 

@@ -33,14 +33,22 @@ struct Settings {
 /// eye's side of the receiver's geometric plane, and (c) the open segment meets no opaque or mask-kept triangle, from either side.
 struct Visibility {
     base::Picture mean; ///< 1 channel (visibility) or 3 (transmittance)
-    base::Picture variance; ///< of the mean, same channels (stratified estimate; 0 for hard lights)
+    /// Of the mean, same channels; 0 for hard lights. One sample a stratum gives no variance within it, so neighbouring strata
+    /// are paired: never too small in expectation, too large where visibility changes between the two. Where all samples agree it
+    /// is 0, although a blocker smaller than a stratum may have been missed: the true error there is below 1 / samples.
+    base::Picture variance;
     int samples = 0;
 };
 
+struct RawThroughput; // truth/benchmark.h
+
 class Tracer {
 public:
+    /// Placed triangles up to this number are flattened to world space; above it, meshes placed more than once are instanced.
+    static constexpr size_t default_flatten_limit = 8'000'000;
+
     /// Builds the acceleration structure; keeps a reference to the scene, which must outlive it.
-    explicit Tracer(const scene::Scene&);
+    explicit Tracer(const scene::Scene&, size_t flatten_limit = default_flatten_limit);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;
@@ -49,10 +57,12 @@ public:
     Visibility visibility(const scene::View&, const Primary&, const scene::Light&, const Settings&) const;
     Visibility transmittance(const scene::View&, const Primary&, const scene::Light&, const Settings&) const;
     /// Visibility of single points with given normals (for tests and for edge bands): one value each.
-    std::vector<double> visibility_at(const std::vector<vec3>& points, const std::vector<vec3>& normals, const scene::Light&, const Settings&) const;
+    std::vector<double> visibility_at(
+        const std::vector<vec3>& points, const std::vector<vec3>& normals, const scene::Light&, const Settings&) const;
     double build_ms() const;
 
 private:
+    friend RawThroughput raw_packets(const Tracer&, const scene::View&, const scene::Light&, int threads);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
@@ -67,6 +77,6 @@ struct Reference {
 };
 enum class Quantity { visibility, transmittance };
 Reference reference(const scene::Scene&, const scene::View&, const scene::Light&, const Settings&, Quantity = Quantity::visibility,
-                    const std::filesystem::path& folder = {});
+    const std::filesystem::path& folder = {});
 
 } // namespace gnomon::truth

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/stage.h"
+
+#include <string>
+#include <vector>
+
+// One function a subcommand; main.cpp reads the options and prints errors. Each returns the exit code.
+namespace gnomon::cli {
+
+/// What every subcommand takes.
+struct Common {
+    std::string device; ///< part of a device's name
+    bool validation = false;
+    bool json = false; ///< the result as JSON on standard output
+};
+
+/// What every subcommand with a picture takes.
+struct Picture {
+    std::string scene, camera, size = "960x540";
+    std::vector<std::string> lights;
+    double time = 0, detail = 1;
+    int gltf_scene = -1;
+};
+lab::StageOptions stage_options(const Picture&); ///< throws base::Error on a malformed size
+
+struct List {
+    Common common;
+    bool scenes = false;
+};
+int list(const List&);
+
+struct Render {
+    Common common;
+    Picture picture;
+    std::string technique = "shadow_map", output;
+    std::vector<std::string> parameters, aovs; ///< name=value; aov names
+    int samples = 1, frame = 0, repeats = 1;
+    float exposure = 0, ambient = 0.35f; ///< stops; relative
+};
+int render(const Render&);
+
+struct Truth {
+    Common common;
+    Picture picture;
+    std::string output;
+    int samples = 256;
+    bool transmittance = false;
+};
+int truth(const Truth&);
+
+struct Compare {
+    Common common;
+    Picture picture;
+    std::vector<std::string> techniques;
+    std::string output;
+    int truth_samples = 256, repeats = 3;
+};
+int compare(const Compare&);
+
+struct Bench {
+    Common common;
+    Picture picture;
+    std::vector<std::string> techniques;
+    int repeats = 10;
+};
+int bench(const Bench&);
+
+struct Folder {
+    Common common;
+    std::vector<std::string> ids; ///< empty = all techniques
+    std::string because;
+    bool check = false;
+};
+int new_technique(const Folder&);
+int picture(const Folder&);
+int docs(const Folder&);
+int bless(const Folder&);
+
+struct Convert {
+    Common common;
+    std::string list, output;
+};
+int convert(const Convert&);
+
+} // namespace gnomon::cli

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.h"
+
+#include "base/error.h"
+#include "base/names.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+using namespace gnomon;
+
+void add_common(CLI::App& app, cli::Common& common, bool device = true)
+{
+    if (device) {
+        app.add_option("--device", common.device, "Device to use: part of its name (default: the first GPU, else the software driver)");
+        app.add_flag("--validation", common.validation, "Run under the Vulkan validation layers; errors end the run");
+    }
+    app.add_flag("--json", common.json, "Print the result as JSON");
+}
+
+void add_picture(CLI::App& app, cli::Picture& picture)
+{
+    app.add_option("scene", picture.scene, "A built-in scene (see `gnomon list --scenes`), a .glb or .gltf file, or a scene .json")->required();
+    app.add_option("--camera", picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
+    app.add_option("--light", picture.lights, "A light of the scene by name, or kind,key=value,... (sun,elevation=40,azimuth=120,angle=0.53); may be repeated");
+    app.add_option("--size", picture.size, "Width and height in pixels, as 960x540")->capture_default_str();
+    app.add_option("--time", picture.time, "Seconds into the scene's animation")->capture_default_str();
+    app.add_option("--detail", picture.detail, "Triangle count of a built-in scene, times this")->capture_default_str();
+    app.add_option("--gltf-scene", picture.gltf_scene, "Which scene of a glTF file (default: its own default)");
+}
+
+/// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs.
+std::vector<std::string> technique_options(const CLI::App& app, const std::string& technique)
+{
+    std::vector<std::string> known, out;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    const std::vector<std::string> rest = app.remaining();
+    for (size_t i = 0; i < rest.size(); ++i) {
+        const std::string& word = rest[i];
+        if (word.rfind("--" + technique + ".", 0) != 0) {
+            if (word.rfind("--", 0) == 0) throw base::Error(base::unknown_name("option", word.substr(0, word.find('=')), known) + fmt::format("; parameters are given as --{}.NAME VALUE", technique));
+            base::fail("what is '{}' for? An option's name is missing before it", word);
+        }
+        std::string item = word.substr(3 + technique.size());
+        if (item.find('=') == std::string::npos) {
+            if (i + 1 >= rest.size()) base::fail("{} needs a value", word);
+            item += "=" + rest[++i];
+        }
+        out.push_back(item);
+    }
+    return out;
+}
+
+int run(int argc, char** argv)
+{
+    CLI::App app{"gnomon: real-time shadows, measured against ray-traced truth", "gnomon"};
+    app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
+    app.require_subcommand(1);
+    app.failure_message(CLI::FailureMessage::simple);
+    app.footer("Example: gnomon compare citadel --techniques shadow_map,ray_traced -o out/");
+
+    cli::List list;
+    CLI::App* list_app = app.add_subcommand("list", "Techniques, lights they take, what this device cannot run and why");
+    list_app->add_flag("--scenes", list.scenes, "List the built-in scenes instead");
+    add_common(*list_app, list.common);
+
+    cli::Render render;
+    CLI::App* render_app = app.add_subcommand("render", "Make a picture");
+    add_picture(*render_app, render.picture);
+    render_app->add_option("--technique", render.technique, "Technique, by its id")->capture_default_str();
+    render_app->add_option("-o,--output", render.output, "PNG or EXR file (default: out/SCENE.TECHNIQUE.png)");
+    render_app->add_option("--aov", render.aovs, "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion")->delimiter(',');
+    render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")->check(CLI::Range(1, 4096))->capture_default_str();
+    render_app->add_option("--frame", render.frame, "Frame number: the only clock and seed")->check(CLI::NonNegativeNumber)->capture_default_str();
+    render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(1, 10000))->capture_default_str();
+    render_app->add_option("--exposure", render.exposure, "Stops brighter or darker")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
+    render_app->add_option("--ambient", render.ambient, "Light from all around, relative to the lights")->check(CLI::Range(0.0, 100.0))->capture_default_str();
+    render_app->allow_extras();
+    add_common(*render_app, render.common);
+
+    cli::Truth truth;
+    CLI::App* truth_app = app.add_subcommand("truth", "Ray-traced visibility with its variance, by the CPU");
+    add_picture(*truth_app, truth.picture);
+    truth_app->add_option("-o,--output", truth.output, "EXR file; a PNG is written beside it (default: out/SCENE.truth.exr)");
+    truth_app->add_option("--samples", truth.samples, "Light samples a pixel, for lights with an area")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    truth_app->add_flag("--transmittance", truth.transmittance, "Colour through semitransparent casters instead of visibility");
+    add_common(*truth_app, truth.common, false);
+
+    cli::Compare compare;
+    CLI::App* compare_app = app.add_subcommand("compare", "Techniques beside the truth: pictures, error maps, times, memory");
+    add_picture(*compare_app, compare.picture);
+    compare_app->add_option("--techniques,--technique", compare.techniques, "Ids, with parameters after colons: shadow_map,shadow_map:map_size=2048:pcf=5")->delimiter(',')->required();
+    compare_app->add_option("-o,--output", compare.output, "Folder for pictures and results.json (default: out/compare-SCENE)");
+    compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    compare_app->add_option("--repeats", compare.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(1, 10000))->capture_default_str();
+    add_common(*compare_app, compare.common);
+
+    cli::Bench bench;
+    CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's in the same run");
+    bench.picture.size = "1024x768";
+    bench.picture.scene = "citadel";
+    add_picture(*bench_app, bench.picture);
+    bench_app->get_option("scene")->required(false);
+    bench_app->add_option("--techniques", bench.techniques, "Ids with parameters (default: shadow_map)")->delimiter(',');
+    bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(2, 10000))->capture_default_str();
+    add_common(*bench_app, bench.common);
+
+    cli::Folder fresh, picture, docs, bless;
+    CLI::App* new_app = app.add_subcommand("new", "Start a technique: copies the template to techniques/ID");
+    new_app->add_option("id", fresh.ids, "Its id: lower-case letters, digits, underscores")->required()->expected(1);
+    CLI::App* picture_app = app.add_subcommand("picture", "Make techniques' pictures and measurements");
+    CLI::App* docs_app = app.add_subcommand("docs", "Rewrite the generated parts of the pages");
+    docs_app->add_flag("--check", docs.check, "Change nothing; fail where a page is stale");
+    CLI::App* bless_app = app.add_subcommand("bless", "Accept techniques' present pictures as goldens");
+    bless_app->add_option("--because", bless.because, "Why they changed")->required();
+    for (const auto& [sub, options] : {std::pair{picture_app, &picture}, {bless_app, &bless}}) sub->add_option("ids", options->ids, "Technique ids (default: all)");
+    for (const auto& [sub, options] : {std::pair{new_app, &fresh}, {picture_app, &picture}, {docs_app, &docs}, {bless_app, &bless}}) add_common(*sub, options->common, sub != new_app && sub != docs_app);
+
+    cli::Convert convert;
+    CLI::App* convert_app = app.add_subcommand("convert", "Turn a list of scenes with cameras and lights (scenes.json) into scene files");
+    convert_app->add_option("list", convert.list, "The list")->required();
+    convert_app->add_option("-o,--output", convert.output, "Folder for the scene files (default: out/scenes)");
+    add_common(*convert_app, convert.common, false);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? 0 : 2;
+    }
+    if (*list_app) return cli::list(list);
+    if (*render_app) {
+        for (const std::string& item : technique_options(*render_app, render.technique)) render.parameters.push_back(item);
+        return cli::render(render);
+    }
+    if (*truth_app) return cli::truth(truth);
+    if (*compare_app) return cli::compare(compare);
+    if (*bench_app) return cli::bench(bench);
+    if (*new_app) return cli::new_technique(fresh);
+    if (*picture_app) return cli::picture(picture);
+    if (*docs_app) return cli::docs(docs);
+    if (*bless_app) return cli::bless(bless);
+    return cli::convert(convert);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    // 1: what was asked cannot be done; 2: it was not understood (CLI11 above); 3: a fault of the program
+    try {
+        return run(argc, argv);
+    } catch (const base::Error& e) {
+        fmt::print(stderr, "gnomon: {}\n", e.what());
+        return 1;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "gnomon: out of memory; try a smaller --size, --detail or scene\n");
+        return 1;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "gnomon: internal fault: {}; please report it with the command line\n", e.what());
+        return 3;
+    }
+}

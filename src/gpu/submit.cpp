@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/recorder.h"
+
+#include <stdexcept>
+
+namespace gnomon::gpu {
+
+namespace {
+
+std::string names_of(const std::vector<Pass>& passes)
+{
+    std::string text = "the pass list";
+    const char* separator = " ";
+    for (const auto& pass : passes) {
+        text += separator + pass.name;
+        separator = ", ";
+    }
+    return text;
+}
+
+VkQueryPool timestamps_for(Context& c, uint32_t count)
+{
+    if (c.timestamp_count < count) {
+        c.vk.vkDestroyQueryPool(c.handle, c.timestamps, nullptr);
+        c.timestamps = VK_NULL_HANDLE;
+        c.timestamp_count = 0;
+        const VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, nullptr, 0, VK_QUERY_TYPE_TIMESTAMP, count * 2, 0};
+        check(c.vk.vkCreateQueryPool(c.handle, &info, nullptr, &c.timestamps), "vkCreateQueryPool");
+        c.timestamp_count = count * 2;
+    }
+    c.vk.vkResetQueryPool(c.handle, c.timestamps, 0, c.timestamp_count);
+    return c.timestamps;
+}
+
+std::vector<PassTime> read_times(Context& c, const std::vector<Pass>& passes)
+{
+    std::vector<uint64_t> stamps(passes.size() + 1);
+    check(c.vk.vkGetQueryPoolResults(c.handle, c.timestamps, 0, uint32_t(stamps.size()), stamps.size() * 8, stamps.data(), 8,
+              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults");
+    const uint64_t mask = c.timestamp_bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << c.timestamp_bits) - 1;
+    std::vector<PassTime> times;
+    for (size_t i = 0; i < passes.size(); ++i)
+        times.push_back({passes[i].name, double((stamps[i + 1] - stamps[i]) & mask) * double(c.properties.limits.timestampPeriod) * 1e-6});
+    return times;
+}
+
+uint64_t transient_bytes(const Submission& s)
+{
+    uint64_t bytes = 0;
+    for (const auto& image : s.images) bytes += image.bytes();
+    for (const auto& buffer : s.buffers) bytes += buffer.desc().bytes;
+    return bytes;
+}
+
+/// Gives the resources back however the recording ends.
+struct Held {
+    Context& context;
+    Submission submission{};
+    ~Held() { context.recycle(std::move(submission)); }
+};
+
+} // namespace
+
+Submitted Device::submit(PassList&& list)
+{
+    Context& c = *impl_;
+    PassList consumed(std::move(list));
+    ListData& l = *consumed.impl_;
+    Submitted result{};
+    if (l.passes.empty()) return result;
+    c.transients.age();
+    const VkQueryPool timestamps = timestamps_for(c, uint32_t(l.passes.size() + 1));
+    Held held{c};
+    c.run(names_of(l.passes), [&](VkCommandBuffer commands) {
+        Recorder recorder(c, l, held.submission, commands);
+        recorder.record(timestamps);
+        recorder.commit();
+    });
+    result.times = read_times(c, l.passes);
+    result.transient_bytes = transient_bytes(held.submission);
+    return result;
+}
+
+uint64_t Device::record(PassList&& list, VkCommandBuffer commands)
+{
+    Context& c = *impl_;
+    PassList consumed(std::move(list));
+    c.transients.age();
+    Held held{c};
+    Recorder recorder(c, *consumed.impl_, held.submission, commands);
+    recorder.record(VK_NULL_HANDLE);
+    recorder.commit();
+    c.open.emplace(++c.last_ticket, std::move(held.submission));
+    held.submission = {};
+    return c.last_ticket;
+}
+
+void Device::retire(uint64_t ticket)
+{
+    impl_->retire(ticket);
+}
+
+} // namespace gnomon::gpu

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/compare.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image_file.h"
+#include "base/progress.h"
+#include "metrics/metrics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+#ifndef GNOMON_COMMIT
+#define GNOMON_COMMIT "unknown"
+#endif
+
+namespace gnomon::lab {
+
+std::string_view commit() { return GNOMON_COMMIT; }
+
+namespace {
+
+std::string file_name(std::string text)
+{
+    for (char& c : text)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
+    return text;
+}
+
+class Comparer {
+public:
+    Comparer(gpu::Device& device, const CompareOptions& options)
+        : device_(device)
+        , options_(options)
+        , stage_(open_stage(options.stage))
+        , scene_(device, stage_.scene)
+    {
+        for (const std::string& text : options.techniques) choices_.push_back(parse_choice(text));
+        if (choices_.empty()) base::fail("no technique to compare; name some with --techniques a,b (see `gnomon list`)");
+        out_.device = device.info().name, out_.driver = device.info().driver, out_.commit = commit();
+    }
+
+    Comparison run()
+    {
+        base::Progress progress("compare " + stage_.scene_name, stage_.lights.size() * (choices_.size() + 1));
+        const std::vector<scene::Light> lights = stage_.lights;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            stage_.lights = {lights[i]};
+            light_ = lights[i].name.empty() ? std::string(scene::kind_name(lights[i].kind())) + std::to_string(i) : lights[i].name;
+            run_light(lights[i], progress);
+        }
+        if (std::all_of(out_.runs.begin(), out_.runs.end(), [](const Run& r) { return !r.skipped.empty(); })) base::fail("no technique ran: {}", out_.runs.front().skipped);
+        if (!options_.folder.empty()) {
+            const std::filesystem::path path = options_.folder / "results.json";
+            base::write_text(path, results_json(out_).dump(1) + "\n");
+            out_.files.push_back(path);
+        }
+        return std::move(out_);
+    }
+
+private:
+    const truth::Reference& reference(truth::Quantity quantity)
+    {
+        auto found = references_.find(quantity);
+        if (found != references_.end()) return found->second;
+        return references_[quantity] = truth::reference(stage_.scene, stage_.view, stage_.lights.front(), {.samples = options_.truth_samples}, quantity, options_.truth_cache);
+    }
+
+    void run_light(const scene::Light& light, base::Progress& progress)
+    {
+        references_.clear();
+        truth_lit_ = {};
+        progress.advance();
+        for (const Choice& choice : choices_) {
+            Run run{std::string(choice.info->id), stage_.scene_name, stage_.camera.name, light_, stage_.view.size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, shadow::refusal(*choice.info, device_, light)};
+            const bool comparable = choice.info->output == shadow::Output::visibility || choice.info->output == shadow::Output::transmittance;
+            if (run.skipped.empty() && !comparable) run.skipped = fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(choice.info->output));
+            if (run.skipped.empty()) run_choice(choice, light, run);
+            out_.runs.push_back(std::move(run));
+            progress.advance();
+        }
+    }
+
+    void run_choice(const Choice& choice, const scene::Light& light, Run& run)
+    {
+        const truth::Reference& truth = reference(choice.info->output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility);
+        const Rendered rendered = render(device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index});
+        base::Picture heat_map, flip_map;
+        score(stage_, light, truth, rendered.images.front(), rendered.primitive, options_.truth_cache, run, &heat_map);
+        if (truth_lit_.empty()) {
+            truth_lit_ = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
+            write("truth", truth_lit_, base::Encoding::srgb);
+            write("truth.visibility", truth.visibility.mean, base::Encoding::linear);
+        }
+        const base::Picture lit = display(rendered.radiance, stage_);
+        run.metrics["flip"] = metrics::flip(lit, truth_lit_, &flip_map);
+        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation, run.bytes = rendered.technique_bytes;
+        write(run.technique, lit, base::Encoding::srgb);
+        write(run.technique + ".visibility", rendered.images.front(), base::Encoding::linear);
+        write(run.technique + ".error", heat_map, base::Encoding::linear);
+    }
+
+    void write(const std::string& name, const base::Picture& picture, base::Encoding encoding)
+    {
+        if (options_.folder.empty()) return;
+        // two settings of one technique must not share a file
+        std::string file = file_name(light_) + "." + name;
+        for (int n = 2; std::find(out_.files.begin(), out_.files.end(), options_.folder / (file + ".png")) != out_.files.end(); ++n) file = fmt::format("{}.{}.{}", file_name(light_), name, n);
+        out_.files.push_back(options_.folder / (file + ".png"));
+        base::write_png(out_.files.back(), picture, encoding);
+    }
+
+    gpu::Device& device_;
+    const CompareOptions& options_;
+    Stage stage_;
+    shadow::SceneGpu scene_;
+    std::vector<Choice> choices_;
+    std::map<truth::Quantity, truth::Reference> references_;
+    base::Picture truth_lit_;
+    std::string light_;
+    Comparison out_;
+};
+
+} // namespace
+
+Comparison compare(gpu::Device& device, const CompareOptions& options) { return Comparer(device, options).run(); }
+
+} // namespace gnomon::lab

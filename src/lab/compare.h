@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/render.h"
+#include "truth/truth.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon::lab {
+
+struct CompareOptions {
+    StageOptions stage;
+    std::vector<std::string> techniques; ///< parse_choice
+    int truth_samples = 256;
+    int repeats = 3; ///< timed frames after one warm-up
+    uint32_t frame_index = 0;
+    std::filesystem::path folder; ///< where pictures and results.json go; empty = none are written
+    std::filesystem::path truth_cache; ///< empty = the user's cache
+};
+
+/// One technique under one light, measured against truth. docs/results.md describes its JSON.
+struct Run {
+    std::string technique, scene, camera, light;
+    base::Size size;
+    std::string params; ///< JSON text
+    std::vector<PassStats> passes;
+    double technique_ms = 0, technique_deviation = 0;
+    uint64_t bytes = 0;
+    std::map<std::string, double> metrics;
+    size_t excluded_pixels = 0; ///< seen on another primitive by raster and rays
+    size_t scored_pixels = 0;
+    int truth_samples = 0;
+    double truth_noise = 0; ///< RMS standard error of the truth
+    std::string skipped; ///< the reason why this technique did not run here; the rest is then empty
+};
+
+struct Comparison {
+    std::string device, driver, commit;
+    std::vector<Run> runs;
+    std::vector<std::filesystem::path> files; ///< written pictures, results.json last
+};
+
+/// Renders, traces, measures and writes. Techniques that refuse the device or the light are listed as skipped; if every one is,
+/// base::Error.
+Comparison compare(gpu::Device&, const CompareOptions&);
+
+/// Measures one technique's image against the truth of its light. `mask` of the comparison: foreground and the same primitive.
+/// For hard lights `wrong_outside_band` counts wrong pixels with no true edge within half a pixel: the truth is traced again at
+/// the corners and edge centres of the pixels; receivers whose plane holds the light to within 1e-3 radians count as edges
+/// (their orientation is decided by the last bits).
+void score(const Stage&, const scene::Light&, const truth::Reference&, const base::Picture& image, const std::vector<uint32_t>& primitive, const std::filesystem::path& truth_cache, Run& out,
+    base::Picture* heat_map = nullptr);
+
+nlohmann::ordered_json results_json(const Comparison&);
+std::string results_table(const Comparison&); ///< for a terminal
+
+/// The commit this program was built from, "unknown" outside a checkout.
+std::string_view commit();
+
+} // namespace gnomon::lab

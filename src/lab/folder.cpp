@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/folder.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/names.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+
+namespace gnomon::lab {
+
+namespace fs = std::filesystem;
+
+fs::path project_root()
+{
+    if (const char* given = std::getenv("GNOMON_ROOT")) {
+        if (!fs::is_directory(fs::path(given) / "techniques")) base::fail("GNOMON_ROOT is '{}', which holds no folder techniques/; set it to a checkout of Gnomon", given);
+        return given;
+    }
+    for (fs::path at = fs::current_path(); !at.empty(); at = at.parent_path()) {
+        if (fs::is_directory(at / "techniques" / "_template")) return at;
+        if (at == at.root_path()) break;
+    }
+    base::fail("this folder is not inside a checkout of Gnomon; change into one or set GNOMON_ROOT");
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void known_keys(const Json& object, const std::vector<std::string>& keys, const fs::path& file)
+{
+    for (const auto& [key, value] : object.items())
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) base::fail("{}: {}", file.string(), base::unknown_name("key", key, keys));
+}
+
+TechniqueScene parse(const Json& json, const fs::path& file)
+{
+    known_keys(json, {"scene", "detail", "camera", "lights", "params", "truth_samples", "promise", "golden_tolerance"}, file);
+    TechniqueScene out;
+    out.scene = json.at("scene").get<std::string>();
+    out.detail = json.value("detail", 1.0);
+    out.camera = json.value("camera", "");
+    out.truth_samples = json.value("truth_samples", 256);
+    if (json.contains("params")) out.params = json["params"].dump();
+    for (const auto& [kind, light] : json.at("lights").items()) out.lights[kind] = light.get<std::string>();
+    for (const auto& [kind, bounds] : json.at("promise").items())
+        for (const auto& [metric, bound] : bounds.items()) out.promise[kind][metric] = bound.get<double>();
+    if (json.contains("golden_tolerance")) {
+        const Json& tolerance = json["golden_tolerance"];
+        known_keys(tolerance, {"pixels", "mean", "reason"}, file);
+        if (tolerance.value("reason", "").empty()) base::fail("{}: golden_tolerance needs a \"reason\"", file.string());
+        out.golden_pixels = tolerance.value("pixels", out.golden_pixels), out.golden_mean = tolerance.value("mean", out.golden_mean);
+    }
+    return out;
+}
+
+} // namespace
+
+TechniqueScene read_technique_scene(const fs::path& folder)
+{
+    const fs::path file = folder / "scene.json";
+    try {
+        return parse(Json::parse(base::read_text(file)), file);
+    } catch (const nlohmann::json::exception& e) {
+        base::fail("{}: {}", file.string(), e.what());
+    }
+}
+
+std::vector<std::string> claimed_kinds(const shadow::TechniqueInfo& info)
+{
+    std::vector<std::string> out;
+    for (int k = 0; k < scene::light_kind_count; ++k)
+        if (info.lights & (1u << k)) out.emplace_back(scene::kind_name(scene::LightKind(k)));
+    return out;
+}
+
+Stage technique_stage(const TechniqueScene& own, const std::string& kind, base::Size size)
+{
+    const auto light = own.lights.find(kind);
+    if (light == own.lights.end()) base::fail("scene.json names no light of kind {}, which the technique claims; add \"{}\" to its \"lights\"", kind, kind);
+    Stage stage = open_stage({own.scene, {.detail = own.detail}, own.camera, {light->second}, size});
+    if (scene::kind_name(stage.lights.front().kind()) != kind) base::fail("scene.json: the light '{}' is {}, not {}", light->second, scene::kind_name(stage.lights.front().kind()), kind);
+    return stage;
+}
+
+Choice technique_choice(const shadow::TechniqueInfo& info, const TechniqueScene& own)
+{
+    Choice choice{&info, shadow::ParamValues(info.params())};
+    choice.params.set_json(Json::parse(own.params));
+    return choice;
+}
+
+PromiseReport check_promises(gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder, base::Size size, const fs::path& truth_cache)
+{
+    const TechniqueScene own = read_technique_scene(folder);
+    const Choice choice = technique_choice(info, own);
+    PromiseReport out;
+    for (const std::string& kind : claimed_kinds(info)) {
+        const Stage stage = technique_stage(own, kind, size);
+        shadow::SceneGpu scene(device, stage.scene);
+        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, {}};
+        const truth::Quantity quantity = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+        const truth::Reference truth = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
+        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false});
+        score(stage, stage.lights.front(), truth, rendered.images.front(), rendered.primitive, truth_cache, run);
+        const auto promise = own.promise.find(kind);
+        if (promise == own.promise.end()) base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);
+        for (const auto& [metric, bound] : promise->second) {
+            const auto measured = run.metrics.find(metric);
+            if (measured == run.metrics.end()) base::fail("{}: the promise names '{}', which is not measured for {} lights here", (folder / "scene.json").string(), metric, kind);
+            // a NaN is a broken promise too
+            if (!(measured->second <= bound)) out.broken.push_back({kind, metric, bound, measured->second});
+        }
+        out.runs.push_back(std::move(run));
+    }
+    return out;
+}
+
+} // namespace gnomon::lab

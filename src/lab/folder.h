@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/compare.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What lies beside a technique's code: its scene, its promise, its goldens, its page.
+namespace gnomon::lab {
+
+/// The root of a checkout (or of a bundle with tests): $GNOMON_ROOT, else the nearest parent of the working folder that holds
+/// techniques/. Throws base::Error where there is none.
+std::filesystem::path project_root();
+
+/// techniques/<id>/scene.json: {"scene", "detail", "camera", "lights": {kind: light}, "params": {...}, "truth_samples",
+/// "promise": {kind: {metric: bound}}, "golden_tolerance": {"pixels", "mean", "reason"}}. Unknown keys are errors.
+struct TechniqueScene {
+    std::string scene, camera;
+    double detail = 1.0;
+    std::map<std::string, std::string> lights; ///< by kind: what scene::parse_light reads
+    std::string params = "{}"; ///< JSON
+    int truth_samples = 256;
+    std::map<std::string, std::map<std::string, double>> promise; ///< by kind of light: metric -> largest value
+    double golden_pixels = 0.001, golden_mean = 1.0 / 2550.0; ///< see compare_golden
+};
+TechniqueScene read_technique_scene(const std::filesystem::path& folder);
+
+/// The stage of a technique's own scene under its light of one kind.
+Stage technique_stage(const TechniqueScene&, const std::string& kind, base::Size);
+Choice technique_choice(const shadow::TechniqueInfo&, const TechniqueScene&);
+std::vector<std::string> claimed_kinds(const shadow::TechniqueInfo&);
+
+inline constexpr base::Size golden_size{256, 256};
+/// The image that a golden holds, 8 bits deep: one channel, or three.
+base::Picture golden_image(gpu::Device&, const shadow::TechniqueInfo&, const std::string& kind, const std::filesystem::path& folder);
+
+/// Goldens are made by lavapipe of one major release; elsewhere they say nothing. "" or the reason to skip them.
+std::string golden_skip(const gpu::Device&);
+
+struct GoldenDifference {
+    bool same = true;
+    size_t off_pixels = 0; ///< differ by more than 4/255 in a channel
+    int largest = 0; ///< of 255
+    double mean = 0; ///< of 1
+    int worst_x = 0, worst_y = 0;
+    std::string text; ///< four lines for a log
+};
+/// "Did it change?": fails when more than `pixels` of all are off by more than 4/255, the mean differs by more than `mean`, a value
+/// is not finite or the sizes differ.
+GoldenDifference compare_golden(const base::Picture& got, const base::Picture& golden, double pixels = 0.001, double mean = 1.0 / 2550.0);
+
+/// A measured metric that is over what scene.json promises.
+struct BrokenPromise {
+    std::string kind, metric;
+    double bound, measured;
+};
+struct PromiseReport {
+    std::vector<Run> runs;
+    std::vector<BrokenPromise> broken;
+};
+PromiseReport check_promises(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder, base::Size size = {384, 256}, const std::filesystem::path& truth_cache = {});
+
+/// Copies techniques/_template to techniques/<id> with the names filled in; returns the files. Refuses ids that are not lower-case
+/// names or that exist.
+std::vector<std::filesystem::path> new_technique(const std::filesystem::path& root, const std::string& id);
+
+/// Writes goldens of one technique on this device; a change needs a reason. Returns what changed, with the promises' metrics.
+std::string bless(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder, const std::string& because);
+
+/// Makes techniques/<id>/<id>.png: the technique beside the truth.
+std::filesystem::path make_picture(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder);
+
+/// Rewrites the generated blocks (between `<!-- generated:NAME -->` and `<!-- /generated -->`) of the technique pages, of
+/// techniques/README.md and of the README's gallery; with `check`, writes nothing and returns the files that are stale. Parameter
+/// tables come from the code; cost and error from techniques/<id>/results.json (made by `gnomon picture`).
+std::vector<std::filesystem::path> update_docs(const std::filesystem::path& root, bool check);
+
+} // namespace gnomon::lab

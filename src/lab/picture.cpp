@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/folder.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/image_file.h"
+#include "metrics/metrics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::lab {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr base::Size panel{480, 360};
+
+/// Panels beside one another, 4 pixels apart; all linear display-referred RGB.
+base::Picture beside(const std::vector<base::Picture>& panels)
+{
+    int width = -4, height = 0;
+    for (const base::Picture& p : panels) width += p.size.width + 4, height = std::max(height, p.size.height);
+    base::Picture out({width, height}, 3, 1.0f);
+    int left = 0;
+    for (const base::Picture& p : panels) {
+        for (int y = 0; y < p.size.height; ++y)
+            for (int x = 0; x < p.size.width; ++x)
+                for (int c = 0; c < 3; ++c) out.at(left + x, y, c) = p.at(x, y, std::min(c, p.channels - 1));
+        left += p.size.width + 4;
+    }
+    return out;
+}
+
+/// A display-encoded picture (a heat map) as the linear one that the sRGB writer gives back.
+base::Picture decoded(base::Picture p)
+{
+    for (float& v : p.values) v = v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+    return p;
+}
+
+} // namespace
+
+fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder)
+{
+    const TechniqueScene own = read_technique_scene(folder);
+    const Choice choice = technique_choice(info, own);
+    Comparison comparison;
+    comparison.device = device.info().name, comparison.driver = device.info().driver, comparison.commit = commit();
+    std::vector<base::Picture> panels;
+    for (const std::string& kind : claimed_kinds(info)) {
+        const Stage stage = technique_stage(own, kind, panel);
+        shadow::SceneGpu scene(device, stage.scene);
+        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, panel, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, {}};
+        const truth::Quantity quantity = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+        const truth::Reference truth = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity);
+        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5});
+        base::Picture heat;
+        score(stage, stage.lights.front(), truth, rendered.images.front(), rendered.primitive, {}, run, &heat);
+        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation, run.bytes = rendered.technique_bytes;
+        comparison.runs.push_back(std::move(run));
+        if (!panels.empty()) continue;
+        panels = {display(rendered.radiance, stage), display(shade_with(device, scene, stage, {truth.visibility.mean}, {}), stage), decoded(heat)};
+    }
+    base::write_text(folder / "results.json", results_json(comparison).dump(1) + "\n");
+    const fs::path file = folder / (std::string(info.id) + ".png");
+    base::write_png(file, beside(panels), base::Encoding::srgb);
+    return file;
+}
+
+} // namespace gnomon::lab

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/render.h"
+
+#include "base/error.h"
+#include "base/names.h"
+#include "lab/aov.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace gnomon::lab {
+
+namespace {
+
+using namespace shadow;
+
+/// Radical inverse: the jitter of supersampling.
+float halton(int index, int radix)
+{
+    float value = 0, fraction = 1;
+    for (; index > 0; index /= radix) {
+        fraction /= float(radix);
+        value += fraction * float(index % radix);
+    }
+    return value;
+}
+
+/// One recorded picture: persistent copies of what is read back afterwards.
+struct Targets {
+    std::vector<gpu::Image> images; ///< the technique's, one a light
+    gpu::Image radiance, primitive;
+};
+
+gpu::Image make_image(gpu::Device& device, VkFormat format, base::Size size, const char* name)
+{
+    return device.image({format, size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name});
+}
+
+class Renderer {
+public:
+    Renderer(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
+        : device_(device)
+        , scene_(scene)
+        , stage_(stage)
+        , choice_(choice)
+        , settings_(settings)
+    {
+        for (const scene::Light& light : stage.lights) {
+            const std::string reason = refusal(*choice.info, device, light);
+            if (!reason.empty()) base::fail("{}", reason);
+            techniques_.push_back(choice.info->create(device));
+            targets_.images.push_back(make_image(device, output_format(choice.info->output), stage.view.size, "technique's image"));
+        }
+        targets_.primitive = make_image(device, VK_FORMAT_R32_UINT, stage.view.size, "primitive copy");
+        if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
+    }
+
+    gpu::Submitted draw(vec2 jitter, AovCopies* aovs)
+    {
+        const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
+        gpu::PassList passes(device_);
+        const GBuffer g = draw_gbuffer(passes, scene_, view, {.material = settings_.lit || aovs, .previous = aovs && aovs->wants("motion") ? &view : nullptr});
+        std::vector<ShadowedLight> shadowed;
+        for (size_t i = 0; i < stage_.lights.size(); ++i) {
+            const gpu::ImageId output = passes.import(targets_.images[i]);
+            passes.group(std::string(choice_.info->id));
+            techniques_[i]->record(passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, settings_.frame_index}, choice_.params.bytes());
+            passes.group("");
+            shadowed.push_back({&stage_.lights[i], output});
+        }
+        passes.copy(g.primitive, passes.import(targets_.primitive), "copy primitive");
+        const bool composited = choice_.info->output == Output::visibility || choice_.info->output == Output::transmittance;
+        if (settings_.lit) passes.copy(shade(passes, scene_, g, view, composited ? std::span<const ShadowedLight>(shadowed) : std::span<const ShadowedLight>(), settings_.lighting), passes.import(targets_.radiance), "copy radiance");
+        if (aovs) aovs->record(passes, g);
+        return device_.submit(std::move(passes));
+    }
+
+    Targets& targets() { return targets_; }
+
+private:
+    gpu::Device& device_;
+    SceneGpu& scene_;
+    const Stage& stage_;
+    const Choice& choice_;
+    const RenderSettings& settings_;
+    std::vector<std::unique_ptr<Technique>> techniques_;
+    Targets targets_;
+};
+
+struct Sums {
+    double sum = 0, squares = 0;
+    int count = 0;
+    void add(double v) { sum += v, squares += v * v, ++count; }
+    double mean() const { return count ? sum / count : 0; }
+    double deviation() const { return count > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1))) : 0; }
+};
+
+/// Passes of one name in one frame (several lights) are added up.
+void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs, std::string_view id)
+{
+    const std::string own = std::string(id) + "/";
+    std::vector<std::string> names;
+    std::map<std::string, Sums> sums;
+    Sums technique;
+    for (const auto& run : runs) {
+        std::map<std::string, double> frame;
+        double total = 0;
+        for (const gpu::PassTime& t : run) {
+            if (std::find(names.begin(), names.end(), t.name) == names.end()) names.push_back(t.name);
+            frame[t.name] += t.ms;
+            if (t.name.starts_with(own)) total += t.ms;
+        }
+        for (const auto& [name, ms] : frame) sums[name].add(ms);
+        technique.add(total);
+    }
+    for (const std::string& name : names)
+        if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation()});
+    out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
+}
+
+std::vector<uint32_t> words(const std::vector<std::byte>& bytes)
+{
+    std::vector<uint32_t> out(bytes.size() / 4);
+    memcpy(out.data(), bytes.data(), out.size() * 4);
+    return out;
+}
+
+void add_rgb(base::Picture& sum, const base::Picture& rgba, float weight)
+{
+    if (sum.empty()) sum = base::Picture(rgba.size, 3);
+    for (size_t i = 0; i < rgba.size.area(); ++i)
+        for (size_t c = 0; c < 3; ++c) sum.values[i * 3 + c] += weight * rgba.values[i * 4 + c];
+}
+
+} // namespace
+
+Choice parse_choice(const std::string& text)
+{
+    const size_t colon = text.find(':');
+    const TechniqueInfo& info = technique(text.substr(0, colon));
+    Choice choice{&info, ParamValues(info.params())};
+    for (size_t at = colon; at != std::string::npos;) {
+        const size_t next = text.find(':', at + 1);
+        const std::string item = text.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+        const size_t equals = item.find('=');
+        if (equals == std::string::npos) base::fail("'{}' after technique {} is not name=value", item, info.id);
+        choice.params.set(item.substr(0, equals), std::string_view(item).substr(equals + 1));
+        at = next;
+    }
+    return choice;
+}
+
+Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
+{
+    Rendered out;
+    Renderer renderer(device, scene, stage, choice, settings);
+    AovCopies aovs(device, stage.view.size, settings.aovs);
+    // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
+    const gpu::Submitted first = renderer.draw(vec2(0), &aovs);
+    std::vector<std::vector<gpu::PassTime>> runs;
+    if (settings.repeats <= 1) runs.push_back(first.times);
+    else
+        for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), nullptr).times);
+    collect(out, runs, choice.info->id);
+    out.technique_bytes = first.group_bytes.count(std::string(choice.info->id)) ? first.group_bytes.at(std::string(choice.info->id)) : 0;
+
+    Targets& targets = renderer.targets();
+    for (gpu::Image& image : targets.images) out.images.push_back(device.read_back(image));
+    out.primitive = words(device.read_back_bytes(targets.primitive));
+    out.aovs = aovs.read(device, stage);
+    if (settings.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
+    for (int s = 0; settings.lit && s < settings.samples; ++s) {
+        if (settings.samples > 1) renderer.draw(vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, nullptr);
+        add_rgb(out.radiance, device.read_back(targets.radiance), 1.0f / float(settings.samples));
+    }
+    return out;
+}
+
+base::Picture shade_with(gpu::Device& device, SceneGpu& scene, const Stage& stage, const std::vector<base::Picture>& images, const LightingSettings& settings)
+{
+    std::vector<gpu::Image> uploaded;
+    for (const base::Picture& picture : images) {
+        const bool colored = picture.channels == 3;
+        uploaded.push_back(make_image(device, colored ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT, picture.size, "given image"));
+        std::vector<float> texels = picture.values;
+        if (colored) {
+            texels.assign(picture.size.area() * 4, 1.0f);
+            for (size_t i = 0; i < picture.size.area(); ++i) std::copy_n(&picture.values[i * 3], 3, &texels[i * 4]);
+        }
+        device.upload(uploaded.back(), std::as_bytes(std::span(texels)));
+    }
+    gpu::Image radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
+    gpu::PassList passes(device);
+    const GBuffer g = draw_gbuffer(passes, scene, stage.view);
+    std::vector<ShadowedLight> shadowed;
+    for (size_t i = 0; i < images.size(); ++i) shadowed.push_back({&stage.lights[i], passes.import(uploaded[i])});
+    passes.copy(shade(passes, scene, g, stage.view, shadowed, settings), passes.import(radiance), "copy radiance");
+    device.submit(std::move(passes));
+    base::Picture out;
+    add_rgb(out, device.read_back(radiance), 1.0f);
+    return out;
+}
+
+} // namespace gnomon::lab

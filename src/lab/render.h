@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gpu/device.h"
+#include "lab/stage.h"
+#include "shadow/lighting.h"
+#include "shadow/technique.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon::lab {
+
+/// A technique with its parameters.
+struct Choice {
+    const shadow::TechniqueInfo* info;
+    shadow::ParamValues params;
+};
+/// "pcss" or "pcss:light_radius=0.2:filter_taps=16". Throws base::Error.
+Choice parse_choice(const std::string& text);
+
+/// Statistics of one pass over the repetitions.
+struct PassStats {
+    std::string name;
+    double ms, deviation; ///< mean and standard deviation
+};
+
+struct RenderSettings {
+    int samples = 1; ///< supersampling: pictures averaged, jittered by a Halton sequence
+    int repeats = 1; ///< timed repetitions of the first sample, after one warm-up when more than one
+    uint32_t frame_index = 0;
+    bool lit = true; ///< shade; otherwise only the techniques' images are made
+    std::set<std::string> aovs; ///< aov_names()
+    shadow::LightingSettings lighting;
+};
+const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion
+
+struct Rendered {
+    base::Picture radiance; ///< RGB, scene-referred linear; empty unless lit
+    std::vector<base::Picture> images; ///< the technique's image for each light, of the first sample
+    std::vector<uint32_t> primitive; ///< of the first sample
+    std::map<std::string, base::Picture> aovs; ///< of the first sample
+    std::vector<PassStats> passes; ///< common and technique's, in order; the technique's begin with its id and "/"
+    double technique_ms = 0, technique_deviation = 0; ///< its own passes, all lights together
+    uint64_t technique_bytes = 0; ///< transients beyond the common ones and the images of the contract
+};
+
+/// Draws a stage with one technique for all its lights. `scene` is the stage's scene on the device. Throws base::Error with the
+/// technique's reason where it refuses the device or a light.
+Rendered render(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, const RenderSettings&);
+
+/// Shades with given images (visibility or transmittance, one a light) instead of a technique's: the lit picture of the truth.
+base::Picture shade_with(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const std::vector<base::Picture>& images, const shadow::LightingSettings&);
+
+/// Scene-referred radiance to display-referred linear RGB in [0, 1]: exposure so that a white diffuse surface under the stage's
+/// strongest light comes out near white, then the Khronos PBR Neutral tone curve. `stops` is added to the exposure.
+base::Picture display(const base::Picture& radiance, const Stage&, float stops = 0.0f);
+
+} // namespace gnomon::lab

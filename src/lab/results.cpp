@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/compare.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+namespace gnomon::lab {
+
+namespace {
+
+nlohmann::ordered_json run_json(const Run& run)
+{
+    nlohmann::ordered_json out = {{"technique", run.technique}, {"scene", run.scene}, {"camera", run.camera}, {"light", run.light}, {"size", {run.size.width, run.size.height}},
+        {"params", nlohmann::ordered_json::parse(run.params)}};
+    if (!run.skipped.empty()) {
+        out["skipped"] = run.skipped;
+        return out;
+    }
+    out["passes"] = nlohmann::ordered_json::array();
+    for (const PassStats& pass : run.passes) out["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}});
+    out["technique_ms"] = run.technique_ms;
+    out["technique_deviation"] = run.technique_deviation;
+    out["bytes"] = run.bytes;
+    out["metrics"] = run.metrics;
+    out["scored_pixels"] = run.scored_pixels;
+    out["excluded_pixels"] = run.excluded_pixels;
+    out["truth"] = {{"samples", run.truth_samples}, {"noise", run.truth_noise}};
+    return out;
+}
+
+std::string cell(const Run& run, const char* metric, const char* format)
+{
+    const auto found = run.metrics.find(metric);
+    return found == run.metrics.end() ? "-" : fmt::format(fmt::runtime(format), found->second);
+}
+
+} // namespace
+
+nlohmann::ordered_json results_json(const Comparison& comparison)
+{
+    nlohmann::ordered_json out = {{"device", comparison.device}, {"driver", comparison.driver}, {"commit", comparison.commit}, {"runs", nlohmann::ordered_json::array()}};
+    for (const Run& run : comparison.runs) out["runs"].push_back(run_json(run));
+    return out;
+}
+
+std::string results_table(const Comparison& comparison)
+{
+    std::string out = fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>17} {:>9}\n", "technique", "light", "wrong", "acne", "leak", "mean abs", "rms", "bias", "flip", "ms", "MiB");
+    for (const Run& run : comparison.runs) {
+        if (!run.skipped.empty()) {
+            out += fmt::format("{:<20} {:<14} skipped: {}\n", run.technique, run.light, run.skipped);
+            continue;
+        }
+        out += fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9.2f} +-{:>5.2f} {:>9.2f}\n", run.technique, run.light, cell(run, "wrong_pixels", "{:.5f}"), cell(run, "acne", "{:.5f}"),
+            cell(run, "leak", "{:.5f}"), cell(run, "mae", "{:.5f}"), cell(run, "rms", "{:.5f}"), cell(run, "bias", "{:+.5f}"), cell(run, "flip", "{:.4f}"), run.technique_ms, run.technique_deviation,
+            double(run.bytes) / (1024.0 * 1024.0));
+    }
+    return out;
+}
+
+} // namespace gnomon::lab

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/compare.h"
+
+#include "metrics/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon::lab {
+
+namespace {
+
+/// Pixels on which the hard truth is not the same all over: another value at one of eight points half a pixel away.
+std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const std::filesystem::path& cache)
+{
+    std::vector<uint8_t> band(truth.primary.primitive.size(), 0);
+    constexpr std::array<std::array<float, 2>, 8> around = {{{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0, -0.5f}, {0, 0.5f}, {-0.5f, 0}, {0.5f, 0}}};
+    for (const auto& [dx, dy] : around) {
+        const scene::View view = scene::make_view(stage.camera, stage.view.size, stage.bounds, vec2(dx, dy));
+        const truth::Reference shifted = truth::reference(stage.scene, view, light, {.samples = 1}, truth::Quantity::visibility, cache);
+        for (size_t i = 0; i < band.size(); ++i)
+            if (shifted.visibility.mean.values[i] != truth.visibility.mean.values[i]) band[i] = 1;
+    }
+    for (size_t i = 0; i < band.size(); ++i) {
+        const vec3 p(truth.primary.position.values[i * 3], truth.primary.position.values[i * 3 + 1], truth.primary.position.values[i * 3 + 2]);
+        const vec3 n(truth.primary.normal.values[i * 3], truth.primary.normal.values[i * 3 + 1], truth.primary.normal.values[i * 3 + 2]);
+        const vec4 point = scene::light_point(light, p, vec2(0.5f));
+        const vec3 to_light = glm::normalize(point.w == 0.0f ? vec3(point) : vec3(point) - p);
+        if (std::abs(glm::dot(n, to_light)) < 1e-3f) band[i] = 1;
+    }
+    return band;
+}
+
+} // namespace
+
+void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const base::Picture& image, const std::vector<uint32_t>& primitive, const std::filesystem::path& cache, Run& out,
+    base::Picture* heat_map)
+{
+    std::vector<uint8_t> mask(primitive.size(), 0);
+    for (size_t i = 0; i < mask.size(); ++i) {
+        const bool seen = primitive[i] != truth::no_primitive || truth.primary.primitive[i] != truth::no_primitive;
+        mask[i] = seen && primitive[i] == truth.primary.primitive[i];
+        out.excluded_pixels += seen && !mask[i];
+        out.scored_pixels += mask[i];
+    }
+    base::Picture test = image;
+    if (test.channels == 4 && truth.visibility.mean.channels == 3) {
+        test = base::Picture(image.size, 3);
+        for (size_t i = 0; i < mask.size(); ++i) std::copy_n(&image.values[i * 4], 3, &test.values[i * 3]);
+    }
+    const bool hard = !light.soft();
+    const metrics::Comparison comparison{test, truth.visibility.mean, truth.visibility.variance, mask, hard};
+    out.metrics = metrics::measure(comparison);
+    out.truth_samples = truth.visibility.samples;
+    out.truth_noise = out.metrics.count("noise") ? out.metrics["noise"] : 0.0;
+    if (hard && truth.visibility.mean.channels == 1 && out.scored_pixels > 0) {
+        size_t outside = 0;
+        if (out.metrics["wrong_pixels"] > 0) {
+            const std::vector<uint8_t> band = edge_band(stage, light, truth, cache);
+            for (size_t i = 0; i < mask.size(); ++i) outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
+        }
+        out.metrics["wrong_outside_band"] = double(outside) / double(out.scored_pixels);
+    }
+    if (heat_map) *heat_map = metrics::signed_heat_map(comparison);
+}
+
+} // namespace gnomon::lab

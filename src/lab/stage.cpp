@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/stage.h"
+
+#include "base/error.h"
+
+namespace gnomon::lab {
+
+void check_size(base::Size size)
+{
+    if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
+        base::fail("a picture of {}x{} pixels cannot be made; each side takes 1 to 16384", size.width, size.height);
+}
+
+Stage open_stage(const StageOptions& options)
+{
+    check_size(options.size);
+    Stage stage;
+    stage.scene = scene::load(options.scene, options.load);
+    stage.scene_name = stage.scene.name.empty() ? options.scene : stage.scene.name;
+    stage.bounds = stage.scene.bounds();
+    if (options.camera.empty()) stage.camera = stage.scene.cameras.empty() ? scene::fit_camera(stage.bounds) : stage.scene.cameras.front();
+    else stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds);
+    for (const std::string& text : options.lights) stage.lights.push_back(scene::parse_light(text, stage.scene.lights, stage.bounds));
+    if (stage.lights.empty()) stage.lights.push_back(stage.scene.lights.empty() ? scene::parse_light("sun,elevation=50,azimuth=35", {}, stage.bounds) : stage.scene.lights.front());
+    stage.view = scene::make_view(stage.camera, options.size, stage.bounds);
+    return stage;
+}
+
+} // namespace gnomon::lab

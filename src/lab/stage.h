@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/load.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::lab {
+
+/// What a command line says about the picture to make.
+struct StageOptions {
+    std::string scene;
+    scene::LoadOptions load;
+    std::string camera; ///< scene::parse_camera; empty = the scene's first, else fitted
+    std::vector<std::string> lights; ///< scene::parse_light each; empty = the scene's first, else a sun
+    base::Size size{960, 540}; ///< pixels
+};
+
+/// A scene with one camera and its lights: everything of a picture but the technique.
+struct Stage {
+    std::string scene_name;
+    scene::Scene scene;
+    Bounds bounds;
+    scene::Camera camera;
+    std::vector<scene::Light> lights;
+    scene::View view;
+};
+
+/// Throws base::Error on any part that does not exist or does not fit. The largest side allowed is 16384.
+Stage open_stage(const StageOptions&);
+
+/// Throws base::Error where the size is empty or absurd.
+void check_size(base::Size);
+
+} // namespace gnomon::lab

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/light.glsl"
+#include "shaders/light_map.glsl"
+#include "shaders/receiver.glsl"
+#include "techniques/template_id/template_id.shared.h"
+
+layout(set = 0, binding = 0) uniform sampler2D depth_image;
+layout(set = 0, binding = 1) uniform usampler2D normal_image;
+layout(set = 0, binding = 2) uniform sampler2DArrayShadow map_image;
+layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
+
+layout(location = 0) out float visibility;
+
+void main()
+{
+    const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
+    visibility = 1.0;
+    if (r.background) return;
+    visibility = 0.0;
+    if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
+
+    const int index = select_layer(c.map.layout_kind, c.map.centre, r.p_world);
+    const LightMapLayer layer = c.map.layers[index];
+    const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
+    const MapPoint m = project(layer, r.p_world + r.n_geometric * (c.params.normal_offset * texel));
+    visibility = compare_depth(map_image, index, m.uv, max(0.0, m.z));
+}
