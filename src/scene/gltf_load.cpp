@@ -41,6 +41,7 @@ private:
     std::vector<Node> nodes_;
     std::map<MeshKey, std::vector<int>> shared_;
     static constexpr size_t most_triangles = size_t(1) << 27; ///< a thousand primitives may name one large buffer
+    static constexpr size_t most_instances = size_t(1) << 24;
     size_t triangles_ = 0; ///< of all meshes, each counted once
     std::vector<bool> mirrored_; ///< an entry an instance: its matrix has a negative determinant
 };
@@ -61,9 +62,16 @@ std::vector<dmat4> Loader::placements(const Value& node, const dmat4& world)
     std::vector<dmat4> out;
     std::vector<vec3> translations, scales;
     std::vector<vec4> rotations;
-    if (const Value v = attributes.find("TRANSLATION")) translations = read_vectors<vec3>(document_, open_accessor(document_, v, {"VEC3"}));
-    if (const Value v = attributes.find("SCALE")) scales = read_vectors<vec3>(document_, open_accessor(document_, v, {"VEC3"}));
-    if (const Value v = attributes.find("ROTATION")) rotations = read_vectors<vec4>(document_, open_accessor(document_, v, {"VEC4"}));
+    const auto read = [&]<class V>(const char* name, const char* type, std::vector<V>& values) {
+        const Value reference = attributes.find(name);
+        if (!reference) return;
+        const Accessor accessor = open_accessor(document_, reference, {type});
+        if (accessor.bytes.empty()) accessor.value.bad("has no data"); // and would place its mesh a million times on one spot
+        values = read_vectors<V>(document_, accessor);
+    };
+    read("TRANSLATION", "VEC3", translations);
+    read("SCALE", "VEC3", scales);
+    read("ROTATION", "VEC4", rotations);
     const size_t count = std::max({translations.size(), scales.size(), rotations.size()});
     for (const size_t n : {translations.size(), scales.size(), rotations.size()})
         if (n != 0 && n != count) attributes.bad("differ in their numbers of instances: {} and {}", n, count);
@@ -122,6 +130,8 @@ void Loader::add_instance(int mesh, const dmat4& world_from_object, size_t node)
             finite ? "flattens its mesh" : "is not finite"));
         return;
     }
+    if (scene_.instances.size() == most_instances)
+        base::fail("{}: the file places more than {} meshes; merge them with gltfpack", document_.file(), most_instances);
     scene_.instances.push_back({mesh, m});
     mirrored_.push_back(glm::determinant(glm::dmat3(world_from_object)) < 0);
 }

@@ -60,6 +60,19 @@ TEST(gltf_nodes, gpu_instancing)
     expect_near(placed(scene, 1, {1, 0, 0}), {0, 5, 5});
 }
 
+TEST(gltf_nodes, gpu_instancing_without_data_or_agreement_is_refused)
+{
+    GltfBuilder b;
+    b.triangle();
+    const int t = b.vec3s({{1, 0, 0}, {0, 2, 0}}), s = b.vec3s({{1, 1, 1}});
+    b.node({{"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", t}, {"SCALE", s}}}}}}}});
+    EXPECT_NE(b.load_error().find("differ in their numbers of instances"), std::string::npos);
+    b.doc["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"].erase("SCALE");
+    b.doc["accessors"][size_t(t)].erase("bufferView");
+    b.doc["accessors"][size_t(t)]["count"] = 10000000;
+    EXPECT_NE(b.load_error().find("has no data"), std::string::npos);
+}
+
 TEST(gltf_nodes, mirrored_instances_keep_their_outside)
 {
     GltfBuilder b;
