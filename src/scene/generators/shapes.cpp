@@ -15,10 +15,10 @@ vec3 on_circle(float u)
     return vec3(std::cos(angle), 0.0f, -std::sin(angle));
 }
 
-/// A unit vector of a bevel, from face normal `a` to face normal `b`.
-vec3 between(vec3 a, vec3 b, float t)
+/// A unit vector of a bevel, step i of k from face normal `a` to `b`. From integers, so that a corner's rim is its edges' to the bit.
+vec3 between(vec3 a, vec3 b, int i, int k)
 {
-    return glm::normalize((1.0f - t) * a + t * b);
+    return glm::normalize(float(k - i) * a + float(i) * b);
 }
 
 } // namespace
