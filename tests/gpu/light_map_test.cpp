@@ -16,11 +16,11 @@ class LightMapShader : public gpu::DeviceTest { };
 TEST_F(LightMapShader, ProjectsAsItsTwin)
 {
     const Bounds bounds{{-4, 0, -3}, {5, 4, 6}};
-    const scene::View view = scene::make_view(scene::fit_camera(bounds), {320, 200}, bounds);
+    const scene::View view = scene::make_view({"", {4, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.4f}, {320, 200}, bounds);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<shaders::MapCase> cases;
-    for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=70", "point,position=0.5/2/-0.5",
+    for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5",
              "point,position=20/9/7", "rect,position=0/6/0,target=0/0/0"})
         for (const auto fit : {shadow::parts::Fit::scene, shadow::parts::Fit::view}) {
             const shaders::LightMap map
@@ -52,7 +52,7 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         ASSERT_NEAR(r.metres, layer.texel_metres * (layer.perspective ? float(m.depth) : 1.0f), 1e-5f * layer.texel_metres * layer.far);
     }
     EXPECT_GT(inside, cases.size() / 2);
-    EXPECT_LT(inside, cases.size());
+    EXPECT_LT(inside, cases.size() - 200);
 }
 
 } // namespace
