@@ -7,7 +7,7 @@
 TECHNIQUE_BEGIN(shadow_map)
 
 struct Params {
-    int map_size DEFAULT(1024);
+    int map_size DEFAULT(2048);
     int fit DEFAULT(1);
     int depth DEFAULT(0);
     int pcf DEFAULT(3);
