@@ -36,6 +36,14 @@ float stored_from_depth(LightMapLayer layer, float depth)
     return (layer.far - depth) / (layer.far - layer.near);
 }
 
+// What a receiver compares with: its stored depth plus what rounding may take. Surfaces across the light's axis have no slope for a
+// bias to scale with, and without this margin half of a floor right below a point light is acne.
+float reference_depth(LightMapLayer layer, float depth, float depth_step)
+{
+    const float z = max(0.0, stored_from_depth(layer, depth));
+    return z + max(depth_step, z * 6e-7);
+}
+
 float depth_from_stored(LightMapLayer layer, float z)
 {
     if (layer.perspective != 0) return layer.near * layer.far / (z * (layer.far - layer.near) + layer.near);
