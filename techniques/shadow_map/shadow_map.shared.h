@@ -14,7 +14,7 @@ struct Params {
     int bilinear DEFAULT(1);
     float bias_constant DEFAULT(0.0f);
     float bias_slope DEFAULT(0.5f);
-    float normal_offset DEFAULT(0.5f);
+    float normal_offset DEFAULT(0.0f);
     int cull DEFAULT(0);
 };
 
