@@ -27,7 +27,6 @@ template <class P, class Trace> double best_ms(const std::vector<P>& packets, in
             tbb::parallel_for(tbb::blocked_range<size_t>(0, copy.size(), 64), [&](const tbb::blocked_range<size_t>& range) {
                 RTCIntersectContext context;
                 rtcInitIntersectContext(&context);
-                context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
                 for (size_t i = range.begin(); i < range.end(); ++i) trace(copy[i], context);
             });
         });

@@ -58,7 +58,6 @@ void Tile::trace(int x0, int y0) const
     aim_primary(rays, size, x0, y0, packet, valid);
     Culling c;
     rtcInitIntersectContext(&c.context);
-    c.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid, geometry.solid(), &c.context, &packet);
     bool any = false;
     alignas(64) int again[lanes];

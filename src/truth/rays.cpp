@@ -72,9 +72,6 @@ void trace(const Geometry& geometry, Quantity quantity, Packet& packet, vec3 (&t
     Transmission t;
     rtcInitIntersectContext(&t.context);
     const bool colored = quantity == Quantity::transmittance;
-    // Embree 3.13's coherent occlusion traversal takes a packet octant by octant, but tests all of its rays at each leaf: where rays
-    // converge on a light, the filter sees a crossing once an octant. That harms no yes-or-no answer, but it would square a pane.
-    if (!colored) t.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if (colored) std::fill(std::begin(t.product), std::end(t.product), vec3(1.0f));
     rtcOccluded16(packet.valid, colored ? geometry.all() : geometry.solid(), &t.context, &packet.ray);
     for (int i = 0; i < lanes; ++i) {

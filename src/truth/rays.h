@@ -101,6 +101,10 @@ inline Path aim(const Receiver& r, const Emitter& e, vec4 light_point, Packet& p
     return Path::ray;
 }
 
+// No ray is traced with RTC_INTERSECT_CONTEXT_FLAG_COHERENT: in Debian 12's Embree 3.13.5 its packet traversal for AVX-512 is
+// miscompiled (GCC 12 stores the lanes still to do as 16 bits and reads them back as 64), so that now and then a packet is traced
+// again and again: crossings are counted twice, or the call never returns.
+
 /// Traces the valid lanes and stores what comes through: 0 or 1 in each channel, or the product of transmittances.
 void trace(const Geometry&, Quantity, Packet&, vec3 (&through)[lanes]);
 

@@ -29,7 +29,6 @@ Materials make_materials(Stage& s)
     m.roof = s.material("roof tiles", vec3(0.85f), 0.8f, s.texture(roof_tiles("roof tiles", {0.64f, 0.38f, 0.28f}, 8, 10, 99)));
     m.slate = s.material("slates", vec3(0.85f), 0.6f, s.texture(roof_tiles("slates", {0.42f, 0.47f, 0.53f}, 8, 12, 100)));
     m.iron = s.material("iron", {0.1f, 0.1f, 0.105f}, 0.5f);
-    m.brass = s.material("brass", {0.6f, 0.42f, 0.15f}, 0.35f);
     m.rope = s.material("rope", {0.5f, 0.4f, 0.25f}, 0.95f);
     m.hay = s.material("hay", vec3(0.85f), 0.95f, s.texture(mottled("hay", {0.82f, 0.68f, 0.36f}, 0.4f, 24, 101)));
     m.sack = s.material("sacking", {0.5f, 0.41f, 0.28f}, 0.95f);
@@ -44,8 +43,6 @@ Materials make_materials(Stage& s)
     m.fruit_red = s.material("apples", {0.5f, 0.05f, 0.03f}, 0.4f);
     m.fruit_green = s.material("pears", {0.5f, 0.45f, 0.08f}, 0.45f);
     m.clay = s.material("clay", {0.45f, 0.2f, 0.1f}, 0.6f);
-    m.fire = s.material("flame", {0.9f, 0.5f, 0.15f}, 0.9f);
-    s.edit(m.fire).emissive = {6.0f, 2.6f, 0.7f};
     return m;
 }
 

@@ -10,8 +10,8 @@ inline constexpr float half_width = 17.0f, half_depth = 15.0f; ///< of the court
 inline constexpr float wall_height = 6.0f, wall_depth = 1.8f;
 
 struct Materials {
-    int paving, grass, wall, dressed, dark_stone, plaster, timber, planks, roof, slate, iron, brass, rope, hay, sack, dark;
-    int red_cloth, blue_cloth, green_cloth, tent_cloth, leaves, bark, fruit_red, fruit_green, clay, fire;
+    int paving, grass, wall, dressed, dark_stone, plaster, timber, planks, roof, slate, iron, rope, hay, sack, dark;
+    int red_cloth, blue_cloth, green_cloth, tent_cloth, leaves, bark, fruit_red, fruit_green, clay;
 };
 Materials make_materials(Stage&);
 

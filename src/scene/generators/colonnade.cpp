@@ -28,7 +28,7 @@ Materials make_materials(Stage& stage)
     const int blocks = stage.texture(stone_blocks("ashlar", {0.83f, 0.76f, 0.65f}, {0.66f, 0.6f, 0.52f}, 3, 6, 51, 0.02f));
     const int fine = stage.texture(mottled("dressed stone", {0.86f, 0.8f, 0.7f}, 0.1f, 6, 52));
     const int plaster = stage.texture(mottled("vault plaster", {0.9f, 0.87f, 0.8f}, 0.07f, 6, 53));
-    const int tiles = stage.texture(checker_tiles("floor tiles", {0.82f, 0.77f, 0.68f}, {0.42f, 0.25f, 0.2f}, 4, 54));
+    const int tiles = stage.texture(checker_tiles("floor tiles", {0.84f, 0.79f, 0.7f}, {0.5f, 0.34f, 0.28f}, 4, 54));
     const int grain = stage.texture(planks("oak", {0.5f, 0.34f, 0.21f}, 3, 55));
     Materials m{};
     m.wall = stage.material("ashlar", vec3(0.85f), 0.95f, blocks);

@@ -49,8 +49,8 @@ Scene tree(double detail)
     Stage stage("tree", detail);
     const int turf = stage.texture(mottled("turf", {0.47f, 0.48f, 0.3f}, 0.35f, 12, 72));
     const int bark_texture = stage.texture(planks("bark", {0.42f, 0.34f, 0.27f}, 6, 73));
-    const int spray = stage.texture(leaf_spray("oak leaves", {0.37f, 0.47f, 0.2f}, 74));
-    const int blades = stage.texture(grass_blades("grass blades", {0.52f, 0.56f, 0.3f}, 75));
+    const int spray = stage.texture(leaf_spray("oak leaves", {0.5f, 0.6f, 0.28f}, 74));
+    const int blades = stage.texture(grass_blades("grass blades", {0.58f, 0.62f, 0.34f}, 75));
     MeshBuilder ground = stage.builder(stage.material("turf", vec3(0.75f), 0.95f, turf), 0.25f);
     ground.height_field({-30, -40}, {30, 20}, 40, 40, ground_height);
     stage.add("ground", std::move(ground));
@@ -81,10 +81,10 @@ Scene tree(double detail)
     stage.place(rock_mesh, stand(1.9f, 1.6f));
     stage.place(rock_mesh, stand(2.7f, 1.1f) * turned(110) * scaled(vec3(0.55f)));
     stage.camera("meadow", {3.0f, 1.7f, 9.2f}, {0.3f, 3.1f, -2.0f}, 52);
-    stage.camera("under the crown", {1.4f, 0.75f, 3.4f}, {-1.4f, 2.9f, -2.2f}, 62);
+    stage.camera("under the crown", {-3.6f, 0.75f, 2.9f}, {-0.9f, 2.9f, -2.2f}, 64);
     stage.camera("from above", {9.0f, 9.5f, 9.0f}, {-1.0f, 1.6f, -3.0f}, 48);
-    stage.sun("sun", 40, -85, 0.0f, {1.0f, 0.93f, 0.8f});
-    stage.sun("soft sun", 40, -85, 0.53f, {1.0f, 0.93f, 0.8f});
+    stage.sun("sun", 40, -62, 0.0f, {1.0f, 0.93f, 0.8f});
+    stage.sun("soft sun", 40, -62, 0.53f, {1.0f, 0.93f, 0.8f});
     stage.sun("evening sun", 14, -120, 0.53f, {1.0f, 0.75f, 0.5f});
     return std::move(stage).finish();
 }
