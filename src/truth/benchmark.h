@@ -5,7 +5,7 @@
 
 namespace gnomon::truth {
 
-/// What Embree alone needs for the rays of a picture with a hard light: packets of 16 made beforehand, only traversal timed, the best
+/// What Embree alone needs for the rays of a picture with a hard light: packets made beforehand, only traversal timed, the best
 /// of three runs. The yardstick for `primary` and `visibility`, which must stay within 1.5 times the sum.
 struct RawThroughput {
     double primary_ms = 0, shadow_ms = 0;

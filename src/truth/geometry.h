@@ -86,7 +86,7 @@ private:
 /// The context of rays in `all()`: each crossing multiplies `product` of the ray whose id is the index.
 struct Transmission {
     RTCIntersectContext context; ///< first, so that a filter can find the rest
-    vec3 product[16];
+    vec3 product[8];
 };
 
 } // namespace gnomon::truth
