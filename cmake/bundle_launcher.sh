@@ -22,7 +22,7 @@ done
 program=${0##*/}
 [ "$program" = run_tests ] || exec "$here/bin/$program" "$@"
 
-export GNOMON_SOURCE="$here/source"
+export GNOMON_ROOT="$here/source"
 status=0
 for program in "$here"/bin/*_tests; do "$program" "$@" || status=1; done
 exit $status

@@ -10,7 +10,7 @@ else()
   # GCC 12 warns of an overlap inside std::string's operator+ that cannot happen (GCC bug 105651).
   target_compile_options(gnomon_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(GNOMON_SANITIZE)
-    target_compile_options(gnomon_options INTERFACE -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer -g)
+    target_compile_options(gnomon_options INTERFACE -fsanitize=${GNOMON_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(gnomon_options INTERFACE -fsanitize=${GNOMON_SANITIZE})
   endif()
 endif()

@@ -34,35 +34,41 @@ bool light_reaches(Light light, vec3 p_world)
 {
     if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_POINT) return true;
     const vec3 from = p_world - light.position;
-    if (light.kind == LIGHT_SPOT) return dot(from, light.direction) > light.cos_outer * length(from);
+    if (light.kind == LIGHT_SPOT) return dot(from, light.direction) >= light.cos_outer * length(from);
     return dot(from, light.direction) > 0.0;
 }
 
-// Uniform in area: u in [0,1)^2 -> unit disk.
-vec2 disk_point(vec2 u)
+// Shirley and Chiu's concentric map of [0,1)^2 onto the unit disk (1997): equal area, and neighbours stay neighbours.
+vec2 square_to_disk(vec2 u)
 {
-    const float r = sqrt(u.x), phi = 6.283185307179586 * u.y;
+    const vec2 a = 2.0 * u - 1.0;
+    if (a == vec2(0.0)) return a;
+    const bool wide = abs(a.x) > abs(a.y);
+    const float r = wide ? a.x : a.y;
+    const float phi = wide ? 0.7853981633974483 * (a.y / a.x) : 1.5707963267948966 - 0.7853981633974483 * (a.x / a.y);
     return r * vec2(cos(phi), sin(phi));
 }
 
+// xyz: where u in [0,1)^2 falls on the light as p sees it, w = 1; directional: the unit direction towards it, w = 0.
 vec4 light_point(Light light, vec3 p_world, vec2 u)
 {
+    if (light.kind == LIGHT_RECT) return vec4(light.position + (2.0 * u.x - 1.0) * light.half_u + (2.0 * u.y - 1.0) * light.half_v, 1.0);
+    const vec2 d = square_to_disk(u);
+    if (light.kind == LIGHT_DISK) return vec4(light.position + d.x * light.half_u + d.y * light.half_v, 1.0);
     vec3 t, b;
     if (light.kind == LIGHT_DIRECTIONAL) {
-        const vec3 axis = -light.direction;
-        if (light.radius == 0.0) return vec4(axis, 0.0);
-        // 1 - cos r = 2 sin^2(r/2): no cancellation for a sun of a quarter of a degree
+        // Equal solid angle: 1 - cos(theta) = r^2 (1 - cos(alpha)), and 1 - cos(alpha) = 2 sin^2(alpha / 2): no cancellation for a
+        // sun of a quarter of a degree.
         const float s = sin(0.5 * light.radius);
-        const float one_minus_cos = u.x * 2.0 * s * s;
-        const float sin_theta = sqrt(max(0.0, one_minus_cos * (2.0 - one_minus_cos))), phi = 6.283185307179586 * u.y;
-        orthonormal_basis(axis, t, b);
-        return vec4(normalize((1.0 - one_minus_cos) * axis + sin_theta * (cos(phi) * t + sin(phi) * b)), 0.0);
+        const float k = 2.0 * s * s;
+        const float z = k * dot(d, d);
+        orthonormal_basis(-light.direction, t, b);
+        return vec4(sqrt(k * (2.0 - z)) * (d.x * t + d.y * b) - (1.0 - z) * light.direction, 0.0);
     }
-    if (light.kind == LIGHT_RECT) return vec4(light.position + (2.0 * u.x - 1.0) * light.half_u + (2.0 * u.y - 1.0) * light.half_v, 1.0);
-    const vec2 d = disk_point(u);
-    if (light.kind == LIGHT_DISK) return vec4(light.position + d.x * light.half_u + d.y * light.half_v, 1.0);
-    if (light.radius == 0.0) return vec4(light.position, 1.0);
-    orthonormal_basis(normalize(p_world - light.position), t, b);
+    const vec3 from = p_world - light.position;
+    const float distance = length(from);
+    if (light.radius == 0.0 || distance == 0.0) return vec4(light.position, 1.0);
+    orthonormal_basis(from / distance, t, b);
     return vec4(light.position + light.radius * (d.x * t + d.y * b), 1.0);
 }
 

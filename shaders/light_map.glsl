@@ -36,6 +36,14 @@ float stored_from_depth(LightMapLayer layer, float depth)
     return (layer.far - depth) / (layer.far - layer.near);
 }
 
+// What a receiver compares with: its stored depth plus what rounding may take. Surfaces across the light's axis have no slope for a
+// bias to scale with, and without this margin half of a floor right below a point light is acne.
+float reference_depth(LightMapLayer layer, float depth, float depth_step)
+{
+    const float z = max(0.0, stored_from_depth(layer, depth));
+    return z + max(depth_step, z * 6e-7);
+}
+
 float depth_from_stored(LightMapLayer layer, float z)
 {
     if (layer.perspective != 0) return layer.near * layer.far / (z * (layer.far - layer.near) + layer.near);
@@ -67,6 +75,29 @@ float fetch_depth(sampler2DArray map, int layer_index, ivec2 texel)
 float compare_depth(sampler2DArrayShadow map, int layer_index, vec2 uv, float z)
 {
     return texture(map, vec4(uv, float(layer_index), z));
+}
+
+// Percentage-closer filtering over n x n taps one texel apart around `at` (in texels). Bilinear taps overlap, so that their sum is
+// one weight a texel on n + 1 texels a side: 1 inside, the fraction and its complement at the ends (exact, where the hardware's
+// weights have 8 bits). Gathers then compare four texels each: 3 x 3 taps take 4 gathers instead of 9 filtered compares.
+// Nearest taps are the same sum with the fraction rounded.
+float box_filter(sampler2DArrayShadow map, int layer_index, vec2 at, float z, int n, bool bilinear)
+{
+    const vec2 corner = at - 0.5 * float(n);
+    const vec2 first = floor(corner);
+    const vec2 f = bilinear ? corner - first : step(0.5, corner - first);
+    const vec2 texel = 1.0 / vec2(textureSize(map, 0).xy);
+    float sum = 0.0;
+    for (int y = 0; y <= n; y += 2) {
+        const vec2 wy = vec2(y == 0 ? 1.0 - f.y : y == n ? f.y : 1.0, y + 1 > n ? 0.0 : y + 1 == n ? f.y : 1.0);
+        for (int x = 0; x <= n; x += 2) {
+            const vec2 wx = vec2(x == 0 ? 1.0 - f.x : x == n ? f.x : 1.0, x + 1 > n ? 0.0 : x + 1 == n ? f.x : 1.0);
+            // order of a gather: (0,1) (1,1) (1,0) (0,0)
+            const vec4 lit = textureGather(map, vec3((first + vec2(x + 1, y + 1)) * texel, float(layer_index)), z);
+            sum += dot(lit, vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x));
+        }
+    }
+    return sum / float(n * n);
 }
 
 #endif

@@ -23,7 +23,7 @@ struct LightMap {
     uint layout_kind; ///< LIGHT_MAP_*
     uint layer_count;
     float size; ///< texels a side
-    float depth_step; ///< smallest step of the stored depth (D16: 1/65535; D32F: 2^-24)
+    float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube)
     float padding;
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];

@@ -6,11 +6,11 @@
 
 namespace gnomon::tests {
 
-/// The source tree that a test reads (goldens, scene.json, includes): $GNOMON_SOURCE where a bundle of tests runs elsewhere, else
+/// The source tree that a test reads (goldens, scene.json, includes): $GNOMON_ROOT where a bundle of tests runs elsewhere, else
 /// the tree that was built.
 inline std::filesystem::path source_root()
 {
-    const char* moved = std::getenv("GNOMON_SOURCE");
+    const char* moved = std::getenv("GNOMON_ROOT");
     return moved ? moved : GNOMON_SOURCE;
 }
 

@@ -37,7 +37,7 @@ struct Render {
     std::string technique = "shadow_map", output;
     std::vector<std::string> parameters, aovs; ///< name=value; aov names
     int samples = 1, frame = 0, repeats = 1;
-    float exposure = 0, ambient = 0.35f; ///< stops; relative
+    float exposure = 0, ambient = 0.45f; ///< stops; relative
 };
 int render(const Render&);
 

@@ -44,9 +44,9 @@ int new_technique(const Folder& options)
 
 int picture(const Folder& options)
 {
+    const auto techniques = chosen(options.ids);
     const fs::path root = lab::project_root();
     const auto device = open_device(options.common);
-    const auto techniques = chosen(options.ids);
     base::Progress progress("pictures", techniques.size());
     std::vector<fs::path> files;
     for (const shadow::TechniqueInfo* info : techniques) {
@@ -70,10 +70,11 @@ int docs(const Folder& options)
 
 int bless(const Folder& options)
 {
+    const auto techniques = chosen(options.ids);
     const fs::path root = lab::project_root();
     const auto device = open_device(options.common);
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const shadow::TechniqueInfo* info : chosen(options.ids)) {
+    for (const shadow::TechniqueInfo* info : techniques) {
         const std::string text = lab::bless(*device, *info, root / "techniques" / info->id, options.because);
         json.push_back(text);
         if (!options.common.json) fmt::print("{}", text);

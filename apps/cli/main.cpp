@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
+#include "usage.h"
 
-#include "base/error.h"
-#include "base/names.h"
-
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -37,19 +34,14 @@ void add_picture(CLI::App& app, cli::Picture& picture)
 /// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs.
 std::vector<std::string> technique_options(const CLI::App& app, const std::string& technique)
 {
-    std::vector<std::string> known, out;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    std::vector<std::string> out;
     const std::vector<std::string> rest = app.remaining();
     for (size_t i = 0; i < rest.size(); ++i) {
         const std::string& word = rest[i];
-        if (word.rfind("--" + technique + ".", 0) != 0) {
-            if (word.rfind("--", 0) == 0) throw base::Error(base::unknown_name("option", word.substr(0, word.find('=')), known) + fmt::format("; parameters are given as --{}.NAME VALUE", technique));
-            base::fail("what is '{}' for? An option's name is missing before it", word);
-        }
+        if (word.rfind("--" + technique + ".", 0) != 0) cli::refuse_words(app, {word}, fmt::format(" (parameters are given as --{}.NAME VALUE)", technique));
         std::string item = word.substr(3 + technique.size());
         if (item.find('=') == std::string::npos) {
-            if (i + 1 >= rest.size()) base::fail("{} needs a value", word);
+            if (i + 1 >= rest.size()) throw cli::UsageError(word + " needs a value");
             item += "=" + rest[++i];
         }
         out.push_back(item);
@@ -62,7 +54,6 @@ int run(int argc, char** argv)
     CLI::App app{"gnomon: real-time shadows, measured against ray-traced truth", "gnomon"};
     app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::simple);
     app.footer("Example: gnomon compare citadel --techniques shadow_map,ray_traced -o out/");
 
     cli::List list;
@@ -131,8 +122,8 @@ int run(int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        const int code = app.exit(e);
-        return code == 0 ? 0 : 2;
+        if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
+        cli::refuse(app, e);
     }
     if (*list_app) return cli::list(list);
     if (*render_app) {
@@ -153,9 +144,12 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    // 1: what was asked cannot be done; 2: it was not understood (CLI11 above); 3: a fault of the program
+    // 1: what was asked cannot be done; 2: it was not understood; 3: a fault of the program
     try {
         return run(argc, argv);
+    } catch (const cli::UsageError& e) {
+        fmt::print(stderr, "gnomon: {}\n", e.what());
+        return 2;
     } catch (const base::Error& e) {
         fmt::print(stderr, "gnomon: {}\n", e.what());
         return 1;

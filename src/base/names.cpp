@@ -54,7 +54,8 @@ std::vector<std::string> near_names(std::string_view name, std::span<const std::
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<std::string> result;
-    for (size_t i = 0; i < std::min<size_t>(3, found.size()); ++i) result.push_back(found[i].second);
+    for (size_t i = 0; i < found.size() && result.size() < 3; ++i)
+        if (std::find(result.begin(), result.end(), found[i].second) == result.end()) result.push_back(found[i].second);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "gpu/programs.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace gnomon::gpu {
 
@@ -118,11 +119,26 @@ void Context::make_layouts()
 
 void Context::run(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
 {
+    if (recording_)
+        throw std::logic_error(
+            fmt::format("{} was asked for while a pass list is being recorded; do it before the list is submitted", about));
     check(vk.vkResetCommandPool(handle, command_pool, 0), "vkResetCommandPool", about);
     const VkCommandBufferBeginInfo begin{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     check(vk.vkBeginCommandBuffer(command_buffer, &begin), "vkBeginCommandBuffer", about);
-    record(command_buffer);
+    struct Recording {
+        bool& on;
+        explicit Recording(bool& flag)
+            : on(flag)
+        {
+            on = true;
+        }
+        ~Recording() { on = false; }
+    };
+    {
+        const Recording guard(recording_);
+        record(command_buffer);
+    }
     // A fence makes device writes available, but only this dependency makes them visible to the mapped buffers' readers.
     const VkMemoryBarrier2 to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
         VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};

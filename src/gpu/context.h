@@ -118,6 +118,7 @@ private:
         std::function<void()> free;
     };
     std::vector<Garbage> garbage_;
+    bool recording_ = false; ///< a draw function that uploads would end the list's own command buffer
 };
 
 struct Device::Impl : Context {

@@ -111,7 +111,8 @@ std::unique_ptr<Device> Device::open(const DeviceOptions& options)
     c.timestamp_bits = found.timestamp_bits;
     c.vk.vkGetDeviceQueue(c.handle, c.queue_family, 0, &c.queue);
     c.names = options.validation;
-    c.anisotropy = found.anisotropy;
+    // lavapipe takes twice the time of the whole G-buffer pass for 8x (citadel, 1024x768: 334 ms against 157).
+    c.anisotropy = found.anisotropy && !found.info.software;
     c.start(found.extensions);
     return device;
 }

@@ -101,7 +101,8 @@ public:
     /// Records, submits, waits, reads the timestamps. The list is consumed.
     Submitted submit(PassList&&);
     /// Records into a command buffer of the caller's; no submit, no wait. Transients live until `retire`, whose ticket the caller
-    /// passes once that command buffer has finished.
+    /// passes once that command buffer has finished. The list's images and buffers then stand as after the list: submit that command
+    /// buffer before anything else here uses them.
     uint64_t record(PassList&&, VkCommandBuffer);
     void retire(uint64_t ticket);
 

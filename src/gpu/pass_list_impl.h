@@ -41,7 +41,7 @@ struct ListData {
     std::vector<Pass> passes;
     std::string prefix;
 };
-struct PassList::Impl : ListData {};
+struct PassList::Impl : ListData { };
 
 /// A binding with its defaults filled in, from the image and from what the shader declares.
 struct ImagePart {

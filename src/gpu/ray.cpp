@@ -2,7 +2,6 @@
 #include "gpu/programs.h"
 #include "gpu/resources_impl.h"
 
-
 #include <cstring>
 #include <stdexcept>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/resources_impl.h"
 
-
 #include <stdexcept>
 
 namespace gnomon::gpu {

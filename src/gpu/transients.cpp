@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/context.h"
 
-
 #include <algorithm>
 
 namespace gnomon::gpu {

@@ -86,9 +86,9 @@ private:
     void run_choice(const Choice& choice, const scene::Light& light, Run& run)
     {
         const truth::Reference& truth = reference(choice.info->output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility);
-        const Rendered rendered = render(device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index});
+        const Rendered rendered = render(device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
-        score(stage_, light, truth, rendered.images.front(), rendered.primitive, options_.truth_cache, run, &heat_map);
+        score(stage_, light, truth, rendered, options_.truth_cache, run, &heat_map);
         if (truth_lit_.empty()) {
             truth_lit_ = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
             write("truth", truth_lit_, base::Encoding::srgb);

@@ -32,7 +32,7 @@ struct Run {
     double technique_ms = 0, technique_deviation = 0;
     uint64_t bytes = 0;
     std::map<std::string, double> metrics;
-    size_t excluded_pixels = 0; ///< seen on another primitive by raster and rays
+    size_t excluded_pixels = 0; ///< raster and rays see different surfaces there
     size_t scored_pixels = 0;
     int truth_samples = 0;
     double truth_noise = 0; ///< RMS standard error of the truth
@@ -49,12 +49,16 @@ struct Comparison {
 /// base::Error.
 Comparison compare(gpu::Device&, const CompareOptions&);
 
-/// Measures one technique's image against the truth of its light. `mask` of the comparison: foreground and the same primitive.
+/// What `score` needs from render().
+inline const std::set<std::string> scored_aovs = {"depth", "geometric_normal"};
+
+/// Measures one technique's first image against the truth of its light. Scored are the pixels where raster and rays see the same
+/// surface: the same primitive, or coincident ones (depth within 1e-4 of its value, normals within 1 degree: a wall modelled twice,
+/// the two triangles of a quad at their shared edge). The others are counted as excluded.
 /// For hard lights `wrong_outside_band` counts wrong pixels with no true edge within half a pixel: the truth is traced again at
 /// the corners and edge centres of the pixels; receivers whose plane holds the light to within 1e-3 radians count as edges
 /// (their orientation is decided by the last bits).
-void score(const Stage&, const scene::Light&, const truth::Reference&, const base::Picture& image, const std::vector<uint32_t>& primitive, const std::filesystem::path& truth_cache, Run& out,
-    base::Picture* heat_map = nullptr);
+void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, const std::filesystem::path& truth_cache, Run& out, base::Picture* heat_map = nullptr);
 
 nlohmann::ordered_json results_json(const Comparison&);
 std::string results_table(const Comparison&); ///< for a terminal

@@ -28,7 +28,7 @@ vec3 pbr_neutral(vec3 c)
 base::Picture display(const base::Picture& radiance, const Stage& stage, float stops)
 {
     // a white diffuse surface under irradiance E has radiance E / pi
-    const float exposure = pi / shadow::reference_irradiance(stage.lights, stage.bounds) * std::exp2(stops) * 0.9f;
+    const float exposure = pi / shadow::reference_irradiance(stage.lights, stage.bounds) * std::exp2(stops) * 1.25f;
     base::Picture out(radiance.size, 3);
     for (size_t i = 0; i < radiance.size.area(); ++i) {
         const vec3 c = pbr_neutral(exposure * vec3(radiance.values[i * 3], radiance.values[i * 3 + 1], radiance.values[i * 3 + 2]));

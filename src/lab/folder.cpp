@@ -104,8 +104,8 @@ PromiseReport check_promises(gpu::Device& device, const shadow::TechniqueInfo& i
         Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, {}};
         const truth::Quantity quantity = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
         const truth::Reference truth = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
-        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false});
-        score(stage, stage.lights.front(), truth, rendered.images.front(), rendered.primitive, truth_cache, run);
+        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
+        score(stage, stage.lights.front(), truth, rendered, truth_cache, run);
         const auto promise = own.promise.find(kind);
         if (promise == own.promise.end()) base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);
         for (const auto& [metric, bound] : promise->second) {

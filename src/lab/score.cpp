@@ -32,18 +32,28 @@ std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, co
     return band;
 }
 
+/// 1 where raster and rays see the same surface.
+std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& raster, Run& out)
+{
+    const base::Picture &depth = raster.aovs.at("depth"), &normal = raster.aovs.at("geometric_normal");
+    std::vector<uint8_t> mask(raster.primitive.size(), 0);
+    for (size_t i = 0; i < mask.size(); ++i) {
+        const bool drawn = raster.primitive[i] != truth::no_primitive, hit = rays.primitive[i] != truth::no_primitive;
+        if (!drawn && !hit) continue;
+        const auto vector = [i](const base::Picture& p) { return vec3(p.values[3 * i], p.values[3 * i + 1], p.values[3 * i + 2]); };
+        const bool coincident = drawn && hit && std::abs(depth.values[i] - rays.depth.values[i]) < 1e-4f * rays.depth.values[i] && glm::dot(vector(normal), vector(rays.normal)) > 0.99985f;
+        mask[i] = drawn && hit && (raster.primitive[i] == rays.primitive[i] || coincident);
+        out.excluded_pixels += !mask[i], out.scored_pixels += mask[i];
+    }
+    return mask;
+}
+
 } // namespace
 
-void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const base::Picture& image, const std::vector<uint32_t>& primitive, const std::filesystem::path& cache, Run& out,
-    base::Picture* heat_map)
+void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, const std::filesystem::path& cache, Run& out, base::Picture* heat_map)
 {
-    std::vector<uint8_t> mask(primitive.size(), 0);
-    for (size_t i = 0; i < mask.size(); ++i) {
-        const bool seen = primitive[i] != truth::no_primitive || truth.primary.primitive[i] != truth::no_primitive;
-        mask[i] = seen && primitive[i] == truth.primary.primitive[i];
-        out.excluded_pixels += seen && !mask[i];
-        out.scored_pixels += mask[i];
-    }
+    const base::Picture& image = rendered.images.front();
+    const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
     base::Picture test = image;
     if (test.channels == 4 && truth.visibility.mean.channels == 3) {
         test = base::Picture(image.size, 3);

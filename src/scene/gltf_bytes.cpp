@@ -101,7 +101,7 @@ std::vector<std::byte> Document::resource(const Value& uri) const
     try {
         return base::read_file(folder_ / path);
     } catch (const base::Error& e) {
-        uri.bad("cannot be read ({})", printable(e.what()));
+        uri.bad("cannot be read ({})", printable(e.what(), 1000));
     }
 }
 

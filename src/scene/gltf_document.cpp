@@ -55,14 +55,15 @@ nlohmann::json parse(std::span<const std::byte> text, const std::string& file)
     } catch (const nlohmann::json::exception& e) {
         // what() begins with an identifier in brackets that helps nobody.
         const std::string_view what = e.what();
-        base::fail("{}: not a glTF file, its JSON is broken ({}); export the file again", file, printable(what.substr(what.find(' ') + 1)));
+        base::fail(
+            "{}: not a glTF file, its JSON is broken ({}); export the file again", file, printable(what.substr(what.find(' ') + 1), 200));
     }
 }
 
 } // namespace
 
 Document::Document(const std::filesystem::path& path)
-    : file_(printable(path.string()))
+    : file_(printable(path.string(), 4096))
     , folder_(path.parent_path())
 {
     read_container(path);
@@ -137,8 +138,10 @@ std::span<const std::byte> Document::buffer(const Value& reference)
         if (const Value uri = buffer.find("uri")) {
             entry.owned = resource(uri);
             entry.bytes = entry.owned;
-        } else if (reference.integer() == 0 && !content_.empty()) {
+        } else if (reference.integer() == 0 && !binary_chunk_.empty()) {
             entry.bytes = binary_chunk_;
+        } else {
+            buffer.bad("has no URI, and the file has no binary chunk for it");
         }
         if (entry.bytes.size() < length) buffer.bad("states {} bytes, but {} are there", length, entry.bytes.size());
         entry.bytes = entry.bytes.first(length);

@@ -32,6 +32,7 @@ private:
     void add_instance(int mesh, const dmat4& world_from_object, size_t node);
     void mirror_instances();
     void aim_cameras();
+    [[noreturn]] void fail_empty() const;
 
     Document& document_;
     const LoadOptions& options_;
@@ -39,6 +40,9 @@ private:
     Materials materials_;
     std::vector<Node> nodes_;
     std::map<MeshKey, std::vector<int>> shared_;
+    static constexpr size_t most_triangles = size_t(1) << 27; ///< a thousand primitives may name one large buffer
+    static constexpr size_t most_instances = size_t(1) << 24;
+    size_t triangles_ = 0; ///< of all meshes, each counted once
     std::vector<bool> mirrored_; ///< an entry an instance: its matrix has a negative determinant
 };
 
@@ -58,9 +62,16 @@ std::vector<dmat4> Loader::placements(const Value& node, const dmat4& world)
     std::vector<dmat4> out;
     std::vector<vec3> translations, scales;
     std::vector<vec4> rotations;
-    if (const Value v = attributes.find("TRANSLATION")) translations = read_vectors<vec3>(document_, open_accessor(document_, v, {"VEC3"}));
-    if (const Value v = attributes.find("SCALE")) scales = read_vectors<vec3>(document_, open_accessor(document_, v, {"VEC3"}));
-    if (const Value v = attributes.find("ROTATION")) rotations = read_vectors<vec4>(document_, open_accessor(document_, v, {"VEC4"}));
+    const auto read = [&]<class V>(const char* name, const char* type, std::vector<V>& values) {
+        const Value reference = attributes.find(name);
+        if (!reference) return;
+        const Accessor accessor = open_accessor(document_, reference, {type});
+        if (accessor.bytes.empty()) accessor.value.bad("has no data"); // and would place its mesh a million times on one spot
+        values = read_vectors<V>(document_, accessor);
+    };
+    read("TRANSLATION", "VEC3", translations);
+    read("SCALE", "VEC3", scales);
+    read("ROTATION", "VEC4", rotations);
     const size_t count = std::max({translations.size(), scales.size(), rotations.size()});
     for (const size_t n : {translations.size(), scales.size(), rotations.size()})
         if (n != 0 && n != count) attributes.bad("differ in their numbers of instances: {} and {}", n, count);
@@ -78,12 +89,14 @@ std::vector<int> Loader::read_mesh(const Value& mesh, const Deformation& deforma
     const Value primitives = mesh.at("primitives");
     for (size_t i = 0; i < primitives.size(); ++i)
         document_.recover("the primitive is left out", [&] {
-            std::optional<Mesh> read = read_primitive(document_, materials_, primitives[i], deformation);
-            if (!read) return;
+            Mesh read = read_primitive(document_, materials_, primitives[i], deformation);
+            triangles_ += read.triangle_count();
+            if (triangles_ > most_triangles)
+                base::fail("{}: the file has more than {} triangles; simplify it with gltfpack", document_.file(), most_triangles);
             const std::string name = mesh.text_or("name", mesh.path());
-            read->name = primitives.size() > 1 ? fmt::format("{}/{}", name, i) : name;
+            read.name = primitives.size() > 1 ? fmt::format("{}/{}", name, i) : name;
             out.push_back(int(scene_.meshes.size()));
-            scene_.meshes.push_back(std::move(*read));
+            scene_.meshes.push_back(std::move(read));
         });
     return out;
 }
@@ -117,6 +130,8 @@ void Loader::add_instance(int mesh, const dmat4& world_from_object, size_t node)
             finite ? "flattens its mesh" : "is not finite"));
         return;
     }
+    if (scene_.instances.size() == most_instances)
+        base::fail("{}: the file places more than {} meshes; merge them with gltfpack", document_.file(), most_instances);
     scene_.instances.push_back({mesh, m});
     mirrored_.push_back(glm::determinant(glm::dmat3(world_from_object)) < 0);
 }
@@ -173,6 +188,15 @@ void Loader::aim_cameras()
     }
 }
 
+void Loader::fail_empty() const
+{
+    const std::string& file = document_.file();
+    std::string reason = fmt::format("no node of the scene shows one of its {} meshes", document_.count("meshes"));
+    if (!scene_.warnings.empty()) reason = scene_.warnings.front();
+    if (reason.starts_with(file)) reason.erase(0, file.size() + 2); // it is named already
+    base::fail("{}: the file holds no triangles to draw ({}); choose another file or scene", file, reason);
+}
+
 Scene Loader::load()
 {
     nodes_ = read_nodes(document_);
@@ -181,9 +205,7 @@ Scene Loader::load()
     for (const size_t node : nodes_of_scene(document_, nodes_, options_.gltf_scene)) place(node);
     mirror_instances();
     scene_.warnings = document_.take_warnings();
-    if (scene_.instances.empty())
-        base::fail("{}: the file holds no triangles to draw{}{}; choose another file or scene", document_.file(),
-            scene_.warnings.empty() ? "" : ", for ", scene_.warnings.empty() ? "" : scene_.warnings.front());
+    if (scene_.instances.empty()) fail_empty();
     if (scene_.triangle_count() > std::numeric_limits<uint32_t>::max())
         base::fail("{}: the file places {} triangles, at most 2^32 - 1 can be numbered; simplify it with gltfpack", document_.file(),
             scene_.triangle_count());

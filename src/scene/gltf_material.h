@@ -32,7 +32,9 @@ private:
     Document& document_;
     Scene& scene_;
     std::map<int64_t, Use> made_; ///< by the index in the file; -1 = the default
-    std::map<std::pair<uint64_t, bool>, int> textures_; ///< by index in the file and srgb; -1 = it could not be read
+    using TextureKey = std::tuple<uint64_t, bool, bool, Wrap, Wrap>; ///< image in the file, srgb, linear, wrapping
+    std::map<TextureKey, int> textures_; ///< -1 = it could not be read, which has been warned of
+    uint64_t texture_bytes_ = 0;
 };
 
 /// An image file in memory as RGBA into `out`. PNG and JPEG only. DataError named after `image`.

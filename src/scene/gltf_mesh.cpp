@@ -95,7 +95,7 @@ void read_optional_attributes(Document& document, const Value& primitive, int uv
 
 } // namespace
 
-std::optional<Mesh> read_primitive(Document& document, Materials& materials, const Value& primitive, const Deformation& deformation)
+Mesh read_primitive(Document& document, Materials& materials, const Value& primitive, const Deformation& deformation)
 {
     const uint64_t mode = primitive.integer_or("mode", 4);
     if (mode > 6) primitive.bad("has the unknown mode {}", mode);
@@ -111,7 +111,7 @@ std::optional<Mesh> read_primitive(Document& document, Materials& materials, con
     if (const size_t dropped = drop_bad_triangles(mesh))
         document.warn(fmt::format("{}: {} has {} triangles with positions that are not finite or beyond {:g} m; they are left out",
             document.file(), primitive.path(), dropped, farthest));
-    if (mesh.indices.empty()) return std::nullopt;
+    if (mesh.indices.empty()) primitive.bad("has no triangle with three sound corners");
     drop_unused_vertices(mesh);
     finish_normals(mesh);
     complete(mesh);

@@ -5,8 +5,6 @@
 #include "scene/gltf_material.h"
 #include "scene/scene.h"
 
-#include <optional>
-
 namespace gnomon::scene::gltf {
 
 /// What a node does to the primitives of its mesh.
@@ -15,8 +13,8 @@ struct Deformation {
     std::vector<mat4> world_from_joint; ///< joint matrix times inverse bind matrix; empty: no skin
 };
 
-/// Reads a primitive, in object space, or in world space where it has a skin. Nothing where no triangle is left. Throws DataError.
-std::optional<Mesh> read_primitive(Document&, Materials&, const Value& primitive, const Deformation&);
+/// Reads a primitive, in object space, or in world space where it has a skin. Throws DataError, also where no triangle is left.
+Mesh read_primitive(Document&, Materials&, const Value& primitive, const Deformation&);
 
 /// Adds the weighted morph targets.
 void apply_morph(Document&, const Value& primitive, std::span<const float> weights, Mesh&);

@@ -7,9 +7,8 @@
 
 namespace gnomon::scene::gltf {
 
-std::string printable(std::string_view text)
+std::string printable(std::string_view text, size_t longest)
 {
-    constexpr size_t longest = 80;
     std::string out;
     for (const char c : text.substr(0, longest)) out += (static_cast<unsigned char>(c) < 32 || c == 127) ? '?' : c;
     return text.size() > longest ? out + "..." : out;

@@ -64,7 +64,7 @@ private:
     const std::string* file_;
 };
 
-/// `text` fit for a message of one line: control characters become '?', and a long text is cut.
-std::string printable(std::string_view text);
+/// `text` fit for a message of one line: control characters become '?', and a text longer than `longest` is cut.
+std::string printable(std::string_view text, size_t longest = 80);
 
 } // namespace gnomon::scene::gltf

@@ -66,7 +66,7 @@ double JsonReader::number(double low, double high) const
 {
     if (!value_.is_number()) fail("must be a number");
     const double number = value_.get<double>();
-    if (!(number >= low && number <= high)) fail(fmt::format("is {}, outside its range {} to {}", number, low, high));
+    if (!(number >= low && number <= high)) fail(fmt::format("is {:.9g}, outside its range {:g} to {:g}", number, low, high));
     return number;
 }
 

@@ -34,7 +34,7 @@ vec2 square_to_disk(vec2 u)
 
 mat3 basis_about(vec3 n)
 {
-    const float sign = std::copysign(1.0f, n.z);
+    const float sign = n.z >= 0.0f ? 1.0f : -1.0f; // not the sign of -0, which a GPU may drop
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
     return mat3(vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);

@@ -11,7 +11,7 @@ namespace gnomon::scene {
 
 namespace {
 
-// The largest built-in has some 60,000 triangles at detail 1, hence 15 million at the top of the range: about a gigabyte.
+// At the top of the range citadel has 18.6 million triangles and takes 580 MB.
 constexpr double least_detail = 0.05, most_detail = 256.0;
 
 std::string extension_of(const std::filesystem::path& file)

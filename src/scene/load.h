@@ -12,7 +12,7 @@
 namespace gnomon::scene {
 
 struct LoadOptions {
-    double time = 0.0; ///< seconds; animations and skins are sampled here
+    double time = 0.0; ///< seconds; animations and skins are sampled here; each animation repeats after its last key
     double detail = 1.0; ///< built-in scenes: multiplies their triangle count
     int gltf_scene = -1; ///< which scene of a glTF file; -1 = its default
 };
@@ -23,7 +23,7 @@ Scene load(const std::string& name_or_file, const LoadOptions& = {});
 
 /// glTF 2.0. Accepts KHR_mesh_quantization, EXT_meshopt_compression, EXT_mesh_gpu_instancing, KHR_texture_transform,
 /// KHR_materials_transmission, KHR_materials_volume, KHR_materials_emissive_strength, KHR_materials_unlit (as diffuse),
-/// KHR_lights_punctual.
+/// KHR_materials_pbrSpecularGlossiness (its diffuse part), KHR_lights_punctual. Positions of skinned meshes come out in world space.
 Scene load_gltf(const std::filesystem::path&, const LoadOptions& = {});
 
 /// Gnomon's scene file: docs/scene-files.md.

@@ -16,8 +16,9 @@ layout(location = 0) out vec4 radiance;
 // A plain sky: brighter towards the horizon, soft ground below it.
 vec3 background(vec3 direction)
 {
-    const vec3 horizon = 0.35 * c.sky + 0.65 * vec3(dot(c.sky, vec3(0.4)));
-    return direction.y >= 0.0 ? mix(horizon, c.sky, pow(direction.y, 0.45)) : mix(horizon, c.ground, min(1.0, pow(-direction.y, 0.35)));
+    // Twice what falls on surfaces: the sky that is seen is clear, the light from all around is what is left of it between things.
+    const vec3 horizon = 0.7 * c.sky + 1.3 * vec3(dot(c.sky, vec3(0.4)));
+    return direction.y >= 0.0 ? mix(horizon, 2.0 * c.sky, pow(direction.y, 0.45)) : mix(horizon, c.ground, min(1.0, pow(-direction.y, 0.35)));
 }
 
 void main()

@@ -25,37 +25,54 @@ GBuffer make_images(gpu::PassList& passes, SceneGpu& scene, const scene::View& v
     return g;
 }
 
+/// Where each visible point was one frame ago: the same triangles again, where their depth is the picture's.
+void draw_motion(gpu::PassList& passes, SceneGpu& scene, const GBuffer& g, const scene::View& view, const scene::View& previous)
+{
+    gpu::RasterPass pass;
+    pass.name = "motion";
+    pass.program = &scene.device().raster_program("src/shadow/motion.vert", "src/shadow/motion.frag");
+    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.previous_instances()), gpu::Use::load}};
+    pass.constants = shaders::GBufferConstants{view_constants(view, 0), previous.clip_from_world};
+    pass.colors = {{g.motion}};
+    pass.depth = gpu::DepthTarget{.image = g.depth, .load = gpu::Load::keep, .write = false, .compare = VK_COMPARE_OP_EQUAL};
+    pass.streams = {SceneGpu::position_stream(), SceneGpu::previous_stream()};
+    pass.draw = [&scene, planes = frustum_planes(view.clip_from_world)](gpu::Encoder& encoder) {
+        scene.draw(encoder, {.sets = draw_opaque | draw_masked, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::previous});
+    };
+    passes.raster(std::move(pass));
+}
+
 } // namespace
 
 GBuffer draw_gbuffer(gpu::PassList& passes, SceneGpu& scene, const scene::View& view, const GBufferRequest& request)
 {
     const GBuffer g = make_images(passes, scene, view, request);
-    shaders::GBufferConstants constants{view_constants(view, 0), mat4(1), request.previous ? 1u : 0u};
-    if (request.previous) constants.previous_clip_from_world = request.previous->clip_from_world;
-
     gpu::Device& device = scene.device();
-    const gpu::Program& opaque = device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag");
-    constexpr gpu::SpecConstant with_mask[] = {{0, 1}};
-    const gpu::Program& masked = device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag", with_mask);
+    const auto program = [&](uint32_t with_mask) -> const gpu::Program& {
+        const gpu::SpecConstant constants[] = {{0, with_mask}, {1, request.material ? 1u : 0u}};
+        return device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag", constants);
+    };
+    const gpu::Program &opaque = program(0), &masked = program(1);
 
     gpu::RasterPass pass;
     pass.name = "gbuffer";
     pass.program = &opaque;
-    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}, {passes.import(scene.previous_instances()), gpu::Use::load}};
-    pass.constants = constants;
+    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
+    pass.constants = shaders::GBufferConstants{view_constants(view, 0), mat4(1)};
     pass.textures = &scene.textures();
     VkClearColorValue nothing{};
     nothing.uint32[0] = 0xffffffffu;
-    pass.colors = {{g.normal}, {g.primitive, gpu::Load::clear, nothing}, {g.albedo}, {g.surface}, {g.emissive}, {g.motion}};
+    pass.colors = {{g.normal}, {g.primitive, gpu::Load::clear, nothing}, {g.albedo}, {g.surface}, {g.emissive}};
     pass.depth = gpu::DepthTarget{g.depth};
-    pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream(), SceneGpu::previous_stream()};
+    pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream()};
     pass.draw = [&scene, &masked, planes = frustum_planes(view.clip_from_world)](gpu::Encoder& encoder) {
-        scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .cull_back_faces = true, .attributes = true, .previous = true});
+        scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::attributes});
         if (!scene.has(draw_masked)) return;
         encoder.program(masked);
-        scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .cull_back_faces = true, .attributes = true, .previous = true});
+        scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::attributes});
     };
     passes.raster(std::move(pass));
+    if (request.previous) draw_motion(passes, scene, g, view, *request.previous);
     return g;
 }
 

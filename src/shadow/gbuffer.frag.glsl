@@ -2,21 +2,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "shaders/octahedral.glsl"
 #include "shaders/scene.glsl"
 #include "src/shadow/gbuffer.shared.h"
 
 layout(constant_id = 0) const bool masked = false;
+layout(constant_id = 1) const bool material = true; // false: only what shadows need
 
 layout(location = 0) in vec3 p_eye;
 layout(location = 1) in vec3 n_world;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 color;
-layout(location = 4) flat in uint slot;
-layout(location = 5) in vec3 clip_previous;
-layout(location = 6) in vec3 clip_now;
+layout(location = 4) flat in uvec2 ids; // first primitive, material
 
-layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { GBufferConstants c; };
 layout(set = 2, binding = 0) uniform sampler2D textures[];
@@ -26,41 +25,37 @@ layout(location = 1) out uint primitive_out;
 layout(location = 2) out vec4 albedo_out;
 layout(location = 3) out vec4 surface_out;
 layout(location = 4) out vec4 emissive_out;
-layout(location = 5) out vec2 motion_out;
+
+// The cut-out is that of the finest level, as in ray-traced truth: coarser levels lose coverage.
+bool kept(uint index)
+{
+    const TextureUse use = materials[index].base_color_texture;
+    float alpha = materials[index].base_color.a * color.a;
+    if (use.index >= 0) alpha *= textureLod(textures[use.index], transform_uv(use, uv), 0.0).a;
+    return alpha >= materials[index].alpha_cutoff;
+}
+
+vec4 sample_use(TextureUse use) { return use.index >= 0 ? texture(textures[use.index], transform_uv(use, uv)) : vec4(1.0); }
 
 void main()
 {
-    const uint material_index = instances[slot].material;
-    const TextureUse base_use = materials[material_index].base_color_texture;
-    vec4 base = materials[material_index].base_color * color;
-    if (base_use.index >= 0) {
-        const vec2 at = transform_uv(base_use, uv);
-        const vec4 texel = texture(textures[nonuniformEXT(base_use.index)], at);
-        base *= texel;
-        if (masked) {
-            // The cut-out is that of the finest level, as in ray-traced truth: coarser levels lose coverage.
-            const float alpha = textureLod(textures[nonuniformEXT(base_use.index)], at, 0.0).a;
-            if (alpha * materials[material_index].base_color.a * color.a < materials[material_index].alpha_cutoff) discard;
-        }
-    } else if (masked && base.a < materials[material_index].alpha_cutoff) {
-        discard;
-    }
-
+    // A draw has one material. Said so, its fields are read once for all lanes: lavapipe otherwise gathers each word lane by lane.
+    const uint index = subgroupBroadcastFirst(ids.y);
+    // before any discard: derivatives need their neighbours
     vec3 n_geometric = cross(dFdx(p_eye), dFdy(p_eye));
+    vec4 base = vec4(1.0), surface = vec4(1.0), emissive = vec4(1.0);
+    if (material) {
+        base = sample_use(materials[index].base_color_texture);
+        surface = sample_use(materials[index].metallic_roughness_texture);
+        emissive = sample_use(materials[index].emissive_texture);
+    }
+    if (masked && !kept(index)) discard;
+
     n_geometric *= dot(n_geometric, p_eye) > 0.0 ? -1.0 : 1.0;
-    vec3 n_shading = gl_FrontFacing ? n_world : -n_world;
-    normal_out = uvec2(encode_normal(normalize(n_shading)), encode_normal(normalize(n_geometric)));
-    primitive_out = instances[slot].first_primitive + uint(gl_PrimitiveID);
-    albedo_out = vec4(base.rgb, 1.0);
-
-    vec2 rough_metal = vec2(materials[material_index].roughness, materials[material_index].metallic);
-    const TextureUse surface_use = materials[material_index].metallic_roughness_texture;
-    if (surface_use.index >= 0) rough_metal *= texture(textures[nonuniformEXT(surface_use.index)], transform_uv(surface_use, uv)).gb;
-    surface_out = vec4(rough_metal.y, rough_metal.x, 0.0, 0.0);
-
-    vec3 emissive = materials[material_index].emissive;
-    const TextureUse emissive_use = materials[material_index].emissive_texture;
-    if (emissive_use.index >= 0) emissive *= texture(textures[nonuniformEXT(emissive_use.index)], transform_uv(emissive_use, uv)).rgb;
-    emissive_out = vec4(emissive, 0.0);
-    motion_out = 0.5 * (clip_now.xy / clip_now.z - clip_previous.xy / clip_previous.z);
+    const vec3 n_shading = gl_FrontFacing ? n_world : -n_world;
+    normal_out = uvec2(encode_normal(n_shading), encode_normal(n_geometric));
+    primitive_out = ids.x + uint(gl_PrimitiveID);
+    albedo_out = vec4(base.rgb * materials[index].base_color.rgb * color.rgb, 1.0);
+    surface_out = vec4(surface.b * materials[index].metallic, surface.g * materials[index].roughness, 0.0, 0.0);
+    emissive_out = vec4(emissive.rgb * materials[index].emissive, 0.0);
 }

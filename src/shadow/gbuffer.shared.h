@@ -7,8 +7,7 @@ SHARED_BEGIN(shaders)
 
 struct GBufferConstants {
     View view;
-    mat4 previous_clip_from_world;
-    uint write_motion; ///< 0 or 1
+    mat4 previous_clip_from_world; ///< motion only
 };
 
 SHARED_END

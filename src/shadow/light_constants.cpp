@@ -28,15 +28,6 @@ template <class... F> struct Overload : F... {
 };
 template <class... F> Overload(F...) -> Overload<F...>;
 
-/// Two unit vectors that complete n; the twin of orthonormal_basis in shaders/light.glsl.
-void orthonormal_basis(vec3 n, vec3& t, vec3& b)
-{
-    const float s = n.z >= 0.0f ? 1.0f : -1.0f;
-    const float a = -1.0f / (s + n.z), c = n.x * n.y * a;
-    t = vec3(1.0f + s * n.x * n.x * a, s * c, -s * n.x);
-    b = vec3(c, s + n.y * n.y * a, -n.y);
-}
-
 } // namespace
 
 float effective_intensity(const scene::Light& light, const Bounds& bounds)
@@ -48,9 +39,11 @@ float effective_intensity(const scene::Light& light, const Bounds& bounds)
         const float distance = std::max(glm::length(centre - position), 0.25f * bounds.radius());
         return pi * distance * distance;
     };
-    return std::visit(Overload{[](const scene::DirectionalLight&) { return pi; }, [&](const scene::SpotLight& l) { return from_distance(l.position); },
-                          [&](const scene::PointLight& l) { return from_distance(l.position); }, [&](const scene::RectLight& l) { return from_distance(l.centre); },
-                          [&](const scene::DiskLight& l) { return from_distance(l.centre); }},
+    return std::visit(
+        Overload{[](const scene::DirectionalLight&) { return pi; }, [&](const scene::SpotLight& l) { return from_distance(l.position); },
+            [&](const scene::PointLight& l) { return from_distance(l.position); },
+            [&](const scene::RectLight& l) { return from_distance(l.centre); },
+            [&](const scene::DiskLight& l) { return from_distance(l.centre); }},
         light.shape);
 }
 
@@ -73,9 +66,8 @@ shaders::Light light_constants(const scene::Light& light, const Bounds& bounds)
                    },
                    [&](const scene::DiskLight& l) {
                        out.position = l.centre, out.direction = l.normal, out.radius = l.radius;
-                       vec3 t, b;
-                       orthonormal_basis(l.normal, t, b);
-                       out.half_u = l.radius * t, out.half_v = l.radius * b;
+                       const mat3 basis = scene::basis_about(l.normal);
+                       out.half_u = l.radius * basis[0], out.half_v = l.radius * basis[1];
                    }},
         light.shape);
     return out;

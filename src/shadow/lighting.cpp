@@ -48,7 +48,7 @@ void blended_pass(gpu::PassList& passes, SceneGpu& scene, const GBuffer& g, cons
     pass.depth = gpu::DepthTarget{.image = g.depth, .load = gpu::Load::keep, .write = false};
     pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream()};
     pass.draw = [&scene, eye = view.eye, planes = frustum_planes(view.clip_from_world)](gpu::Encoder& encoder) {
-        scene.draw(encoder, {.sets = draw_blended, .cull = &planes, .cull_back_faces = true, .attributes = true, .back_to_front_of = &eye});
+        scene.draw(encoder, {.sets = draw_blended, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::attributes, .back_to_front_of = &eye});
     };
     passes.raster(std::move(pass));
 }

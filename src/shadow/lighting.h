@@ -19,7 +19,7 @@ struct Ambient {
 };
 
 struct LightingSettings {
-    float ambient = 0.35f; ///< scales Ambient, relative to the lights
+    float ambient = 0.45f; ///< scales Ambient, relative to the lights
 };
 
 /// The largest irradiance that one of the lights gives at normal incidence at the scene's centre: what exposure and ambient are

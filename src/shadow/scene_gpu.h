@@ -19,7 +19,7 @@ using Planes = std::vector<vec4>;
 Planes frustum_planes(const mat4& clip_from_world); ///< left, right, bottom, top, near; reversed depth, no far plane
 
 /// The scene on the device: buffers made once, acceleration structures on first use. Keeps a reference to the scene.
-///   vertex stream 0: positions, vec3; stream 1: attributes {uint snorm16x2 octahedral normal; vec2 uv; uint rgba8 colour}
+///   vertex stream 0: positions, vec3; stream 1 where asked for: attributes {uint snorm16x2 octahedral normal; vec2 uv; uint rgba8 colour}
 ///   instances: shaders/scene.glsl `Instance`, indexed by gl_InstanceIndex (sorted by mesh; the primitive ids are the scene's)
 class SceneGpu {
 public:
@@ -47,12 +47,12 @@ public:
     static gpu::VertexStream attribute_stream(); ///< locations 1 normal (uint), 2 uv, 3 colour (uint)
     static gpu::VertexStream previous_stream(); ///< location 4
 
+    enum class Second { none, attributes, previous };
     struct DrawOptions {
         unsigned sets = draw_opaque;
         const Planes* cull = nullptr; ///< instances wholly outside are left out
         bool cull_back_faces = false; ///< of single-sided materials; otherwise the encoder's cull mode is left alone
-        bool attributes = false; ///< binds stream 1
-        bool previous = false; ///< binds stream 2
+        Second second = Second::none; ///< what stream 1 holds
         const vec3* back_to_front_of = nullptr; ///< sorts instances by the distance of their centres from this eye
         uint32_t layer = 0; ///< < 256; reaches the vertex shader in the top byte of gl_InstanceIndex (shaders/scene.glsl)
     };

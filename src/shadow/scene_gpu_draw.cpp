@@ -38,8 +38,8 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
 {
     const Impl& s = *impl_;
     encoder.vertex_buffer(0, s.positions);
-    if (options.attributes) encoder.vertex_buffer(1, s.attributes);
-    if (options.previous) encoder.vertex_buffer(2, previous_positions());
+    if (options.second == Second::attributes) encoder.vertex_buffer(1, s.attributes);
+    if (options.second == Second::previous) encoder.vertex_buffer(1, previous_positions());
     encoder.index_buffer(s.indices);
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < s.slots.size(); ++i)

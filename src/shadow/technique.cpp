@@ -21,7 +21,7 @@ const TechniqueInfo& technique(std::string_view id)
         if (info->id == id) return *info;
         ids.emplace_back(info->id);
     }
-    throw base::Error(base::unknown_name("technique", id, ids) + "; `gnomon list` shows all");
+    throw base::Error(base::unknown_name("technique", id, ids) + " (`gnomon list` shows all)");
 }
 
 std::string refusal(const TechniqueInfo& info, const gpu::Device& device, const scene::Light& light)

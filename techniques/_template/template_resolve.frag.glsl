@@ -25,5 +25,5 @@ void main()
     const LightMapLayer layer = c.map.layers[index];
     const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
     const MapPoint m = project(layer, r.p_world + r.n_geometric * (c.params.normal_offset * texel));
-    visibility = compare_depth(map_image, index, m.uv, max(0.0, m.z));
+    visibility = compare_depth(map_image, index, m.uv, reference_depth(layer, m.depth, c.map.depth_step));
 }

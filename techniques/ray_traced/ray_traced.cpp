@@ -37,9 +37,7 @@ private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         SceneGpu& scene = frame.resources;
-        const Bounds& bounds = scene.bounds();
-        const vec3 extent = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-        const TraceConstants constants{view_constants(frame.view, frame.index), light_constants(frame.light, bounds), params, std::max({extent.x, extent.y, extent.z})};
+        const TraceConstants constants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()), params};
         const std::vector<gpu::Binding> bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {frame.output, gpu::Use::store}, scene.tlas(),
             {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}, {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load}};
         const gpu::Threads threads{uint32_t(frame.view.size.width), uint32_t(frame.view.size.height), 1};

@@ -13,7 +13,6 @@ struct TraceConstants {
     View view;
     Light light;
     Params params;
-    float scene_extent; ///< largest coordinate of the scene's bounds, metres: scales rounding errors
 };
 
 SHARED_END

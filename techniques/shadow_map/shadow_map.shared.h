@@ -7,14 +7,14 @@
 TECHNIQUE_BEGIN(shadow_map)
 
 struct Params {
-    int map_size DEFAULT(1024);
+    int map_size DEFAULT(2048);
     int fit DEFAULT(1);
     int depth DEFAULT(0);
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
     float bias_constant DEFAULT(0.0f);
     float bias_slope DEFAULT(0.5f);
-    float normal_offset DEFAULT(1.0f);
+    float normal_offset DEFAULT(0.0f);
     int cull DEFAULT(0);
 };
 

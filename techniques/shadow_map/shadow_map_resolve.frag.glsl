@@ -30,10 +30,6 @@ void main()
     const vec3 p = r.p_world + r.n_geometric * (c.params.normal_offset * texel * sqrt(max(0.0, 1.0 - cos_light * cos_light)));
 
     const MapPoint m = project(layer, p);
-    const float z = max(0.0, stored_from_depth(layer, m.depth - c.params.bias_constant));
-    const float radius = 0.5 * float(c.params.pcf - 1);
-    float lit = 0.0;
-    for (int y = 0; y < c.params.pcf; ++y)
-        for (int x = 0; x < c.params.pcf; ++x) lit += compare_depth(map_image, index, m.uv + (vec2(x, y) - radius) / c.map.size, z);
-    visibility = lit / float(c.params.pcf * c.params.pcf);
+    const float z = reference_depth(layer, m.depth - c.params.bias_constant, c.map.depth_step);
+    visibility = box_filter(map_image, index, m.uv * c.map.size, z, c.params.pcf, c.params.bilinear != 0);
 }

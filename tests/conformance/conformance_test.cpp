@@ -48,6 +48,9 @@ fs::path technique_folder(const shadow::TechniqueInfo& info) { return lab::proje
 std::string light_above(const std::string& kind)
 {
     if (kind == "directional") return "sun,elevation=55,azimuth=30,angle=0";
+    // a scene may have lights of these names: everything that matters is said
+    if (kind == "spot") return "spot,position=2/5/1,target=0/0/0,cone=70,radius=0,intensity=40";
+    if (kind == "point") return "point,position=2/5/1,radius=0,intensity=40";
     return kind + ",position=2/5/1,target=0/0/0,intensity=40";
 }
 

@@ -64,13 +64,13 @@ Scene tilted_planes(double detail)
     // Turned about x by 5 degrees more each, side by side along x: a light without an x component never casts one on another.
     for (int i = 0; i < 18; ++i) {
         const float hue = float(i) / 17.0f;
-        const vec3 color = glm::mix(vec3(0.75f, 0.42f, 0.18f), vec3(0.16f, 0.38f, 0.62f), hue);
+        const vec3 color = glm::mix(vec3(0.7f, 0.3f, 0.08f), vec3(0.06f, 0.22f, 0.5f), hue);
         MeshBuilder b = stage.builder(sheet_material(stage, "card " + std::to_string(5 * i), color));
         b.transform = at({0.6f * (float(i) - 8.5f), 0.9f, 0.0f}) * turned(5.0f * float(i), vec3(1, 0, 0));
         b.quad({-0.27f, 0, -0.8f}, {0, 0, 1.6f}, {0.54f, 0, 0});
         stage.add("card " + std::to_string(5 * i), std::move(b));
     }
-    stage.camera("front", {-1.5f, 3.4f, 8.2f}, {0, 0.75f, 0}, 42);
+    stage.camera("front", {0.6f, 3.3f, 8.6f}, {0, 0.6f, 0}, 42);
     stage.camera("along the fan", {-7.5f, 1.9f, 4.2f}, {0, 0.8f, 0}, 45);
     stage.sun("sun", 80, 0, 0.0f, warm_light);
     stage.sun("soft sun", 50, 0, 0.53f, warm_light);

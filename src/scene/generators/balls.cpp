@@ -33,7 +33,7 @@ Scene balls(double detail)
             stage.place(meshes[size_t(random.below(int(std::size(colors))))], at({x, radius + lift, z}) * scaled(vec3(radius)));
         }
     }
-    stage.camera("three-quarter", {4.2f, 3.4f, 7.6f}, {-0.1f, 0.55f, 0.2f}, 45);
+    stage.camera("three-quarter", {3.4f, 3.0f, 6.8f}, {0.0f, 0.5f, 0.3f}, 48);
     stage.camera("low", {-6.2f, 0.9f, 4.6f}, {0, 0.7f, 0}, 45);
     stage.camera("from above", {0.5f, 11, 0.6f}, {0, 0, 0}, 50);
     stage.sun("sun", 48, -50, 0.0f, {1.0f, 0.94f, 0.84f});

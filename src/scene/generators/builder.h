@@ -111,7 +111,6 @@ public:
     void disk(std::string name, vec3 centre, vec3 target, float radius, vec3 color = vec3(1));
 
     float fineness() const { return fineness_; }
-    int segments(int count) const { return std::max(1, int(std::lround(float(count) * fineness_))); }
     Scene finish() && { return std::move(scene_); }
 
 private:

@@ -28,7 +28,7 @@ Materials make_materials(Stage& stage)
     const int blocks = stage.texture(stone_blocks("ashlar", {0.83f, 0.76f, 0.65f}, {0.66f, 0.6f, 0.52f}, 3, 6, 51, 0.02f));
     const int fine = stage.texture(mottled("dressed stone", {0.86f, 0.8f, 0.7f}, 0.1f, 6, 52));
     const int plaster = stage.texture(mottled("vault plaster", {0.9f, 0.87f, 0.8f}, 0.07f, 6, 53));
-    const int tiles = stage.texture(checker_tiles("floor tiles", {0.82f, 0.77f, 0.68f}, {0.42f, 0.25f, 0.2f}, 4, 54));
+    const int tiles = stage.texture(checker_tiles("floor tiles", {0.84f, 0.79f, 0.7f}, {0.5f, 0.34f, 0.28f}, 4, 54));
     const int grain = stage.texture(planks("oak", {0.5f, 0.34f, 0.21f}, 3, 55));
     Materials m{};
     m.wall = stage.material("ashlar", vec3(0.85f), 0.95f, blocks);
@@ -92,8 +92,7 @@ void add_tracery(MeshBuilder& b, const ArchedWall& w)
     b.box({0, 0.5f * (w.sill + w.spring), 0}, {0.06f, 0.5f * (w.spring - w.sill), 0.09f}, 0.02f);
     for (float side : {-1.0f, 1.0f}) {
         std::vector<vec3> path;
-        for (vec2 p : arch_head(0.5f * w.opening, w.spring, 0.8f, b.segments(6) + 1))
-            path.emplace_back(p.x + side * 0.25f * w.opening, p.y, 0.0f);
+        for (vec2 p : arch_head(0.5f * w.opening, w.spring, 0.8f, 7)) path.emplace_back(p.x + side * 0.25f * w.opening, p.y, 0.0f);
         b.sweep(path, {{-0.06f, -0.045f}, {0.06f, -0.045f}, {0.06f, 0.045f}, {-0.06f, 0.045f}}, vec3(0, 0, 1));
     }
     for (float t : {0.33f, 0.66f}) b.box({0, glm::mix(w.sill, w.spring, t), 0}, {0.5f * w.opening, 0.02f, 0.02f});
@@ -157,7 +156,7 @@ void add_vault(Stage& stage, const Materials& m)
     const std::vector<vec2> profile = {{-0.13f, -0.12f}, {0.13f, -0.12f}, {0.13f, 0.06f}, {0.06f, 0.16f}, {-0.06f, 0.16f}, {-0.13f, 0.06f}};
     const auto add_rib = [&](vec2 from, vec2 to, const std::vector<vec2>& shape) {
         std::vector<vec3> path;
-        const int count = ribs.segments(20);
+        const int count = 20;
         for (int i = 0; i <= count; ++i) {
             const float t = -std::cos(pi * float(i) / float(count));
             const vec2 p = glm::mix(from, to, 0.5f + 0.5f * t);
@@ -255,7 +254,7 @@ Scene colonnade(double detail)
     add_vault(stage, m);
     add_furniture(stage, m);
     stage.camera("nave", {0.9f, 1.75f, 11.2f}, {-0.35f, 4.1f, -4.0f}, 68);
-    stage.camera("aisle", {-6.3f, 1.7f, 9.5f}, {-3.2f, 2.6f, -3.0f}, 60);
+    stage.camera("aisle", {-5.9f, 1.7f, 10.6f}, {-4.0f, 2.7f, -3.0f}, 60);
     stage.camera("altar", {-1.7f, 2.3f, -1.5f}, {0.9f, 2.9f, -12.0f}, 60);
     stage.sun("sun", 31, 82, 0.0f, {1.0f, 0.9f, 0.74f});
     stage.sun("soft sun", 31, 82, 0.53f, {1.0f, 0.9f, 0.74f});

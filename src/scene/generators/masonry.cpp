@@ -24,7 +24,7 @@ void add_arched_wall(MeshBuilder& b, const ArchedWall& w)
     const float pier = 0.5f * (half - gap);
     for (float side : {-1.0f, 1.0f}) b.box({side * (gap + pier), 0.5f * (w.sill + w.spring), 0}, {pier, 0.5f * (w.spring - w.sill), depth});
     std::vector<vec2> outline = {{half, w.spring}, {half, w.top}, {-half, w.top}, {-half, w.spring}};
-    const std::vector<vec2> head = arch_head(w.opening, w.spring, w.rise, b.segments(8) + 1);
+    const std::vector<vec2> head = arch_head(w.opening, w.spring, w.rise, 9);
     outline.insert(outline.end(), head.rbegin(), head.rend());
     b.extrude(outline, w.depth);
 }
@@ -32,7 +32,7 @@ void add_arched_wall(MeshBuilder& b, const ArchedWall& w)
 void add_arch_moulding(MeshBuilder& b, const ArchedWall& w, float thick, float proud)
 {
     std::vector<vec3> path = {{0.5f * w.opening, w.sill, 0}};
-    for (vec2 p : arch_head(w.opening, w.spring, w.rise, b.segments(8) + 1)) path.emplace_back(p.x, p.y, 0.0f);
+    for (vec2 p : arch_head(w.opening, w.spring, w.rise, 9)) path.emplace_back(p.x, p.y, 0.0f);
     path.emplace_back(-0.5f * w.opening, w.sill, 0.0f);
     const float x = 0.5f * w.depth + proud, y = thick;
     // side = z; the path runs counter-clockwise, so cross(tangent, side) points away from the opening.

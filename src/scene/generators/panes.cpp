@@ -21,10 +21,10 @@ Scene stacked_panes(double detail)
         float turn;
     };
     const Pane panes[] = {
-        {"ruby", {0.75f, 0.05f, 0.06f}, 0.55f, {-0.75f, 1.0f, 0.25f}, 8},
-        {"amber", {0.9f, 0.5f, 0.05f}, 0.5f, {0.1f, 1.35f, 0.65f}, -12},
-        {"emerald", {0.06f, 0.55f, 0.16f}, 0.55f, {0.75f, 1.7f, 0.1f}, 20},
-        {"cobalt", {0.06f, 0.14f, 0.72f}, 0.6f, {0.0f, 2.05f, -0.55f}, -5},
+        {"ruby", {0.8f, 0.0f, 0.02f}, 0.6f, {-0.75f, 1.0f, 0.25f}, 8},
+        {"amber", {0.95f, 0.45f, 0.0f}, 0.55f, {0.1f, 1.35f, 0.65f}, -12},
+        {"emerald", {0.0f, 0.6f, 0.1f}, 0.6f, {0.75f, 1.7f, 0.1f}, 20},
+        {"cobalt", {0.0f, 0.08f, 0.8f}, 0.6f, {0.0f, 2.05f, -0.55f}, -5},
         {"bottle glass", {0.72f, 0.95f, 0.8f}, -1.0f, {-0.35f, 2.4f, 0.1f}, 33},
     };
     for (const Pane& p : panes) {
@@ -56,10 +56,10 @@ Scene stacked_panes(double detail)
         }
     }
     stage.add("rods", std::move(rods));
-    stage.camera("three-quarter", {2.2f, 3.1f, 4.4f}, {0.0f, 0.75f, 0.1f}, 45);
+    stage.camera("three-quarter", {2.4f, 2.9f, 3.6f}, {-0.35f, 0.8f, -0.1f}, 50);
     stage.camera("floor", {0.6f, 3.6f, 3.4f}, {-0.9f, 0, -0.6f}, 45);
-    stage.sun("sun", 55, 50, 0.0f);
-    stage.sun("soft sun", 55, 50, 2.0f);
+    stage.sun("sun", 58, 78, 0.0f);
+    stage.sun("soft sun", 58, 78, 2.0f);
     stage.rect("panel", {0.5f, 5, 0.5f}, {0.5f, 0, 0}, {0, 0, 0.5f});
     stage.point("lamp", {1.0f, 4.5f, 0.8f}, 0.15f);
     return std::move(stage).finish();

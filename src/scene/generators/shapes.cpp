@@ -15,10 +15,10 @@ vec3 on_circle(float u)
     return vec3(std::cos(angle), 0.0f, -std::sin(angle));
 }
 
-/// A unit vector of a bevel, from face normal `a` to face normal `b`.
-vec3 between(vec3 a, vec3 b, float t)
+/// A unit vector of a bevel, step i of k from face normal `a` to `b`. From integers, so that a corner's rim is its edges' to the bit.
+vec3 between(vec3 a, vec3 b, int i, int k)
 {
-    return glm::normalize((1.0f - t) * a + t * b);
+    return glm::normalize(float(k - i) * a + float(i) * b);
 }
 
 } // namespace
@@ -29,7 +29,7 @@ void MeshBuilder::face_corner(const vec3 (&d)[3], vec3 centre, vec3 inner, float
     const int k = segments(1);
     const auto point = [&](int i, int j) {
         const vec3 n = glm::normalize(float(k - i - j) * d[0] + float(i) * d[1] + float(j) * d[2]);
-        return add({centre + inner + bevel * n, n, vec2(inner.x + inner.z, inner.y)});
+        return add({centre + (inner + bevel * n), n, vec2(inner.x + inner.z, inner.y)});
     };
     for (int j = 0; j < k; ++j) {
         for (int i = 0; i < k - j; ++i) {
@@ -43,6 +43,7 @@ void MeshBuilder::box(vec3 centre, vec3 half, float bevel)
 {
     bevel = std::clamp(bevel, 0.0f, 0.999f * std::min({half.x, half.y, half.z}));
     const vec3 core = half - bevel;
+    const int steps = segments(1);
     const auto axis = [](int i, float sign) {
         vec3 v(0.0f);
         v[i] = sign;
@@ -54,7 +55,7 @@ void MeshBuilder::box(vec3 centre, vec3 half, float bevel)
         for (float side : {-1.0f, 1.0f}) {
             const vec3 n = axis(i, side), u = axis(iu, core[iu]), v = axis(iv, core[iv]);
             patch(1, 1, [&](float s, float t) {
-                const vec3 p = n * half[i] + (2.0f * s - 1.0f) * u + (2.0f * t - 1.0f) * v;
+                const vec3 p = (side * axis(i, core[i]) + (2.0f * s - 1.0f) * u + (2.0f * t - 1.0f) * v) + bevel * n;
                 return Vertex{centre + p, n, vec2(p[iu], p[iv])};
             });
             if (bevel <= 0.0f) continue;
@@ -63,9 +64,9 @@ void MeshBuilder::box(vec3 centre, vec3 half, float bevel)
             for (float other : {-1.0f, 1.0f}) {
                 const vec3 m = axis(j, other);
                 patch(1, 1, [&](float s, float t) {
-                    const vec3 d = between(n, m, t);
+                    const vec3 d = between(n, m, int(std::lround(t * float(steps))), steps);
                     const vec3 p = side * axis(i, core[i]) + other * axis(j, core[j]) + (2.0f * s - 1.0f) * axis(k, core[k]);
-                    return Vertex{centre + p + bevel * d, d, vec2(p.x + p.z, p.y)};
+                    return Vertex{centre + (p + bevel * d), d, vec2(p.x + p.z, p.y)};
                 });
             }
         }
@@ -157,29 +158,14 @@ void MeshBuilder::sphere(vec3 centre, float radius, int around)
 
 void MeshBuilder::torus(vec3 centre, float radius, float tube, int around, int about)
 {
-    const mat4 saved = transform;
-    transform = transform * at(centre);
-    std::vector<vec2> ring;
-    const int k = segments(about);
-    for (int i = 0; i < k; ++i) {
-        const float a = 2.0f * pi * float(i) / float(k);
-        ring.push_back(vec2(radius, 0.0f) + tube * vec2(std::cos(a), std::sin(a)));
-    }
-    ring.push_back(ring.front());
-    const float fine = fineness_;
-    fineness_ = float(segments(around)) / float(around); // the profile is split already
-    for (size_t i = 0; i + 1 < ring.size(); ++i) {
-        const vec2 a = ring[i], b = ring[i + 1], c(radius, 0.0f);
-        const auto part = [&](float u, float v) {
-            const vec2 p = v >= 1.0f ? b : v <= 0.0f ? a : glm::mix(a, b, v);
-            const vec2 n = glm::normalize(p - c);
-            const vec3 d = on_circle(u);
-            return Vertex{d * p.x + vec3(0, p.y, 0), d * n.x + vec3(0, n.y, 0), vec2(2.0f * pi * u * radius, (float(i) + v) * tube)};
-        };
-        patch(around, 1, part, true);
-    }
-    fineness_ = fine;
-    transform = saved;
+    patch(
+        around, about,
+        [&](float u, float v) {
+            const float a = v >= 1.0f ? 0.0f : 2.0f * pi * v; // ends where it began, to the bit
+            const vec3 d = on_circle(u), n = d * std::cos(a) + vec3(0, std::sin(a), 0);
+            return Vertex{centre + d * radius + tube * n, n, vec2(2.0f * pi * u * radius, 2.0f * pi * v * tube)};
+        },
+        true);
 }
 
 } // namespace gnomon::scene::generators

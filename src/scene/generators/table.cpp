@@ -25,6 +25,12 @@ const std::vector<Builtin>& builtins()
             generators::colonnade},
         {"duelling_frusta", "A long colonnade lit from ahead, against the view: the worst case of perspective warps.", false, true,
             generators::duelling_frusta},
+        {"tree", "Trees and grass of alpha-masked cards: shadows of things finer than a texel.", false, false, generators::tree},
+        {"citadel", "A walled courtyard with towers, houses, market stalls and banners: a game level in small.", false, true,
+            generators::citadel},
+        {"fence", "Chain link, railings, nets and wires: casters thinner than a texel, by mask and by geometry.", false, false,
+            generators::fence},
+        {"terrain", "Huts, rocks and tufts before hills kilometres away: cascades and depth range.", false, false, generators::terrain},
     };
     return table;
 }

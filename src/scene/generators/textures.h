@@ -33,7 +33,5 @@ Texture leaf_spray(std::string name, vec3 color, uint32_t seed);
 Texture grass_blades(std::string name, vec3 color, uint32_t seed);
 /// Diagonal wire mesh: `cells` diamonds a side over the tile.
 Texture chain_link(std::string name, vec3 wire, int cells);
-/// A heraldic cloth: field, border and a device; v = 1 is the swallow-tailed lower end.
-Texture banner(std::string name, vec3 field, vec3 device, uint32_t seed);
 
 } // namespace gnomon::scene::generators

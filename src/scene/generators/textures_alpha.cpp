@@ -93,20 +93,4 @@ Texture chain_link(std::string name, vec3 wire, int cells)
     });
 }
 
-Texture banner(std::string name, vec3 field, vec3 device, uint32_t seed)
-{
-    Texture t = painted(std::move(name), 256, [=](vec2 uv) {
-        const float wear = 0.85f + 0.3f * fractal_noise(uv * 8.0f, 8, 4, seed);
-        const float tail = 1.0f - 0.2f * (1.0f - 2.0f * std::abs(uv.x - 0.5f)); // the swallow tail's notch
-        const float rim = std::min({uv.x, 1.0f - uv.x, uv.y, tail - uv.y});
-        const vec2 c = (uv - vec2(0.5f, 0.4f)) * vec2(1.0f, 1.6f);
-        const float r = glm::length(c), angle = std::atan2(c.y, c.x);
-        const bool star = r < 0.16f + 0.08f * std::cos(8.0f * angle) || (r > 0.29f && r < 0.33f);
-        const bool border = rim > 0.035f && rim < 0.075f;
-        return vec4((star || border ? device : field) * wear, uv.y < tail ? 1.0f : 0.0f);
-    });
-    t.wrap_u = t.wrap_v = Wrap::clamp;
-    return t;
-}
-
 } // namespace gnomon::scene::generators

@@ -119,7 +119,7 @@ shaders::LightMap fit_light_map(const scene::Scene&, const Bounds& bounds, const
 {
     shaders::LightMap map{};
     map.size = float(settings.size);
-    map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : std::ldexp(1.0f, -24);
+    map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
         fit_directional(map, bounds, view, sun->direction, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {

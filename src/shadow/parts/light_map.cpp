@@ -58,10 +58,10 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
         for (uint32_t layer = 0; layer < map.layer_count; ++layer) {
             const Planes planes = caster_planes(c.clip_from_world[layer], map.layers[layer].perspective != 0);
             encoder.program(opaque);
-            scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .attributes = true, .layer = layer});
+            scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .second = SceneGpu::Second::attributes, .layer = layer});
             if (!scene.has(draw_masked)) continue;
             encoder.program(masked);
-            scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .attributes = true, .layer = layer});
+            scene.draw(encoder, {.sets = draw_masked, .cull = &planes, .second = SceneGpu::Second::attributes, .layer = layer});
         }
     };
     passes.raster(std::move(pass));

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device_fixture.h"
+#include "glsl_function.h"
+#include "tests/light_map_twin.h"
+#include "twins.shared.h"
+
+#include "shadow/parts/light_map.h"
+
+#include <random>
+
+namespace gnomon {
+namespace {
+
+class LightMapShader : public gpu::DeviceTest { };
+
+TEST_F(LightMapShader, ProjectsAsItsTwin)
+{
+    const Bounds bounds{{-4, 0, -3}, {5, 4, 6}};
+    const scene::View view = scene::make_view({"", {4, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.4f}, {320, 200}, bounds);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    std::vector<shaders::MapCase> cases;
+    for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5",
+             "point,position=20/9/7", "rect,position=0/6/0,target=0/0/0"})
+        for (const auto fit : {shadow::parts::Fit::scene, shadow::parts::Fit::view}) {
+            const shaders::LightMap map
+                = shadow::parts::fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fit = fit});
+            for (int i = 0; i < 300; ++i) {
+                const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
+                cases.push_back({map, p});
+            }
+        }
+    const auto results = gpu::run_glsl_cases<shaders::MapResult>(device(), "tests/gpu/light_map.comp", cases);
+    size_t inside = 0;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        const shaders::LightMap& map = cases[i].map;
+        const shaders::MapResult& r = results[i];
+        SCOPED_TRACE(i);
+        ASSERT_EQ(r.layer, tests::select_layer(map, cases[i].p_world));
+        const shaders::LightMapLayer& layer = map.layers[r.layer];
+        const tests::MapPoint m = tests::project(layer, cases[i].p_world);
+        ASSERT_NEAR(double(r.depth), m.depth, 1e-5 * double(layer.far));
+        ASSERT_EQ(r.inside != 0, m.inside);
+        inside += r.inside;
+        if (!m.inside) continue; // behind a spot there is no uv to speak of
+        ASSERT_NEAR(double(r.uv.x), m.uv.x, 1e-5);
+        ASSERT_NEAR(double(r.uv.y), m.uv.y, 1e-5);
+        ASSERT_NEAR(double(r.z), m.z, 1e-5);
+        ASSERT_NEAR(double(r.stored), tests::stored_from_depth(layer, m.depth), 1e-5);
+        ASSERT_NEAR(double(r.stored), double(r.z), 1e-5);
+        ASSERT_NEAR(double(r.linear), m.depth, 2e-5 * double(layer.far));
+        ASSERT_NEAR(r.metres, layer.texel_metres * (layer.perspective ? float(m.depth) : 1.0f), 1e-5f * layer.texel_metres * layer.far);
+    }
+    EXPECT_GT(inside, cases.size() / 2);
+    EXPECT_LT(inside, cases.size() - 200);
+}
+
+} // namespace
+} // namespace gnomon

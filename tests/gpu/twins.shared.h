@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases and results of the GLSL functions that have a C++ twin.
+#ifndef GNOMON_TESTS_TWINS_SHARED_H
+#define GNOMON_TESTS_TWINS_SHARED_H
+#include "shaders/frame.shared.h"
+#include "shaders/light_map.shared.h"
+
+SHARED_BEGIN(shaders)
+
+struct LightCase {
+    Light light;
+    vec3 p_world;
+    vec2 u;
+};
+
+struct LightResult {
+    vec4 point; ///< light_point
+    vec4 towards; ///< to_light
+    uint reaches; ///< light_reaches
+};
+
+struct MapCase {
+    LightMap map;
+    vec3 p_world;
+};
+
+struct MapResult {
+    int layer; ///< select_layer
+    vec2 uv; ///< project
+    float z, depth;
+    uint inside;
+    float stored; ///< stored_from_depth of the depth
+    float linear; ///< depth_from_stored of the stored depth
+    float metres; ///< metres_per_texel at the depth
+};
+
+struct RandomResult {
+    uvec3 hash;
+    vec2 unit;
+};
+
+struct TransmittanceCase {
+    uint material;
+    vec4 base;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_EXT_multiview : require
+
+layout(location = 0) in vec3 position;
+
+void main() { gl_Position = vec4(position.x, -position.y, position.z * float(gl_ViewIndex + 1), 1.0); }

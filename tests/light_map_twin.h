@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shaders/light_map.shared.h"
+
+#include <cmath>
+
+/// shaders/light_map.glsl in double: what the fits and the shader are held to.
+namespace gnomon::tests {
+
+struct MapPoint {
+    glm::dvec2 uv;
+    double z, depth, w;
+    bool inside;
+};
+
+inline int select_layer(const shaders::LightMap& map, vec3 p_world)
+{
+    if (map.layout_kind != LIGHT_MAP_CUBE) return 0;
+    const vec3 d = p_world - map.centre;
+    int axis = 2;
+    if (std::abs(d.y) >= std::abs(d[axis])) axis = 1;
+    if (std::abs(d.x) >= std::abs(d[axis])) axis = 0;
+    return 2 * axis + (d[axis] >= 0.0f ? 0 : 1);
+}
+
+inline double stored_from_depth(const shaders::LightMapLayer& layer, double depth)
+{
+    const double near = double(layer.near), far = double(layer.far);
+    return layer.perspective ? near / (far - near) * (far / depth - 1.0) : (far - depth) / (far - near);
+}
+
+inline double depth_from_stored(const shaders::LightMapLayer& layer, double z)
+{
+    const double near = double(layer.near), far = double(layer.far);
+    return layer.perspective ? near * far / (z * (far - near) + near) : far - z * (far - near);
+}
+
+inline MapPoint project(const shaders::LightMapLayer& layer, vec3 p_world)
+{
+    const glm::dvec4 p(glm::dvec3(p_world), 1.0), h = glm::dmat4(layer.map_from_world) * p;
+    MapPoint m{glm::dvec2(h.x, h.y) / h.w, h.z / h.w, glm::dot(glm::dvec4(layer.depth_plane), p), h.w, false};
+    m.inside = h.w > 0.0 && m.uv.x >= 0.0 && m.uv.y >= 0.0 && m.uv.x <= 1.0 && m.uv.y <= 1.0;
+    return m;
+}
+
+} // namespace gnomon::tests
