@@ -108,7 +108,7 @@ void Tile::locate(const RTCRayHit8& packet, int i, size_t pixel, vec3& normal) c
     // From the barycentrics in double: an error in u and v moves the point inside the plane only, while one in the ray's
     // length would move it off.
     const double u = double(packet.hit.u[i]), v = double(packet.hit.v[i]);
-    const vec3 p(dvec3(t.corner[0]) + u * dvec3(t.corner[1] - t.corner[0]) + v * dvec3(t.corner[2] - t.corner[0]));
+    const vec3 p(t.corner + u * t.edge_u + v * t.edge_v);
     out.depth.values[pixel] = rays.depth(p);
     for (int k = 0; k < 3; ++k) out.position.values[pixel * 3 + size_t(k)] = p[k];
     out.primitive[pixel] = geometry.first_primitives()[instance] + packet.hit.primID[i];

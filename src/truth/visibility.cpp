@@ -95,6 +95,7 @@ void Job::soft(Receivers& receivers, SoftPixel& pixel, int x, int y) const
 void Job::hard(Receivers& receivers, Packet& packet, vec4 light_point, int x0, int y0, int x1, int y1) const
 {
     packet.clear();
+    for (int row = 0; row < packet_height; ++row) receivers.prefetch(size_t(y0 + row) * size_t(size.width) + size_t(x0) + 4 * packet_width);
     vec3 through[lanes];
     bool any = false;
     for (int i = 0; i < lanes; ++i) {
