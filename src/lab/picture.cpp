@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr base::Size panel{480, 360};
+constexpr base::Size panel{320, 240};
 
 /// Panels beside one another, 4 pixels apart; all linear display-referred RGB.
 base::Picture beside(const std::vector<base::Picture>& panels)

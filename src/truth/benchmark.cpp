@@ -10,8 +10,8 @@ namespace gnomon::truth {
 
 namespace {
 
-struct alignas(64) EyePacket {
-    RTCRayHit16 rays;
+struct alignas(32) EyePacket {
+    RTCRayHit8 rays;
     int valid[lanes];
 };
 
@@ -27,6 +27,7 @@ template <class P, class Trace> double best_ms(const std::vector<P>& packets, in
             tbb::parallel_for(tbb::blocked_range<size_t>(0, copy.size(), 64), [&](const tbb::blocked_range<size_t>& range) {
                 RTCIntersectContext context;
                 rtcInitIntersectContext(&context);
+                context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
                 for (size_t i = range.begin(); i < range.end(); ++i) trace(copy[i], context);
             });
         });
@@ -54,13 +55,13 @@ RawThroughput raw_packets(const Tracer& tracer, const scene::View& view, const s
     std::vector<EyePacket> eye;
     std::vector<Packet> shadow;
     for_tiles(view.size, 1, [&](int x0, int y0, int x1, int y1) {
-        for (int y = y0; y < y1; y += quad)
-            for (int x = x0; x < x1; x += quad) {
+        for (int y = y0; y < y1; y += packet_height)
+            for (int x = x0; x < x1; x += packet_width) {
                 EyePacket& seen = eye.emplace_back();
                 aim_primary(rays, view.size, x, y, seen.rays, seen.valid);
                 Packet& packet = shadow.emplace_back();
                 for (int i = 0; i < lanes; ++i) {
-                    const int px = x + i % quad, py = y + i / quad;
+                    const int px = x + i % packet_width, py = y + i / packet_width;
                     const size_t index = size_t(py) * size_t(view.size.width) + size_t(px);
                     if (px >= x1 || py >= y1 || !receivers.seen(index)) continue;
                     const Receiver r = receivers.at(index);
@@ -72,9 +73,9 @@ RawThroughput raw_packets(const Tracer& tracer, const scene::View& view, const s
     result.primary_rays = count_rays(eye);
     result.shadow_rays = count_rays(shadow);
     result.primary_ms
-        = best_ms(eye, threads, [&](EyePacket& p, RTCIntersectContext& c) { rtcIntersect16(p.valid, geometry.solid(), &c, &p.rays); });
+        = best_ms(eye, threads, [&](EyePacket& p, RTCIntersectContext& c) { rtcIntersect8(p.valid, geometry.solid(), &c, &p.rays); });
     result.shadow_ms
-        = best_ms(shadow, threads, [&](Packet& p, RTCIntersectContext& c) { rtcOccluded16(p.valid, geometry.solid(), &c, &p.ray); });
+        = best_ms(shadow, threads, [&](Packet& p, RTCIntersectContext& c) { rtcOccluded8(p.valid, geometry.solid(), &c, &p.ray); });
     return result;
 }
 

@@ -198,9 +198,9 @@ Geometry::Triangle Geometry::transformed_triangle(uint32_t instance, const uint3
 {
     const std::vector<vec3>& positions = surfaces_[instance].mesh->positions;
     const mat4& m = scene_.instances[instance].world_from_object;
-    Triangle t;
-    for (size_t k = 0; k < 3; ++k) t.corner[k] = vec3(m * vec4(positions[corners[k]], 1.0f));
-    return t;
+    const auto world = [&](int k) { return glm::dvec3(vec3(m * vec4(positions[corners[k]], 1.0f))); };
+    const glm::dvec3 corner = world(0);
+    return {corner, world(1) - corner, world(2) - corner};
 }
 
 } // namespace gnomon::truth

@@ -5,7 +5,6 @@
 
 #include <embree3/rtcore.h>
 
-#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -26,17 +25,20 @@ public:
     /// All triangles, for rays that carry a Transmission: built at the first call.
     RTCScene all() const;
 
+    /// World space. In double from the start: a copy of the float corners costs the processor more (stalled store forwarding) than
+    /// the conversion.
     struct Triangle {
-        std::array<vec3, 3> corner; ///< world
+        glm::dvec3 corner, edge_u, edge_v; ///< a point is corner + u edge_u + v edge_v
         /// Not normalised; points to the front.
-        glm::dvec3 normal() const { return glm::cross(glm::dvec3(corner[1] - corner[0]), glm::dvec3(corner[2] - corner[0])); }
+        glm::dvec3 normal() const { return glm::cross(edge_u, edge_v); }
     };
     Triangle triangle(uint32_t instance, uint32_t index) const
     {
         const Placed& p = placed_[instance];
         const uint32_t* v = p.indices + size_t(index) * 3;
-        if (p.world) return {{p.world[v[0]], p.world[v[1]], p.world[v[2]]}};
-        return transformed_triangle(instance, v);
+        if (!p.world) return transformed_triangle(instance, v);
+        const glm::dvec3 corner(p.world[v[0]]);
+        return {corner, glm::dvec3(p.world[v[1]]) - corner, glm::dvec3(p.world[v[2]]) - corner};
     }
     const scene::Material& material(uint32_t instance) const { return *surfaces_[instance].material; }
     /// The longest side of the bounds of any triangle of the instance, which bounds the rounding errors of a ray test against it and
@@ -86,7 +88,7 @@ private:
 /// The context of rays in `all()`: each crossing multiplies `product` of the ray whose id is the index.
 struct Transmission {
     RTCIntersectContext context; ///< first, so that a filter can find the rest
-    vec3 product[16];
+    vec3 product[8];
 };
 
 } // namespace gnomon::truth

@@ -39,12 +39,12 @@ struct Tile {
     Primary& out;
 
     void trace(int x0, int y0) const;
-    void store(int x0, int y0, const RTCRayHit16& packet, const int (&lanes_to_store)[lanes]) const;
+    void store(int x0, int y0, const RTCRayHit8& packet, const int (&lanes_to_store)[lanes]) const;
     /// Position and oriented normal, not yet of unit length.
-    void locate(const RTCRayHit16& packet, int lane, size_t pixel, vec3& normal) const;
+    void locate(const RTCRayHit8& packet, int lane, size_t pixel, vec3& normal) const;
 };
 
-dvec3 direction(const RTCRayHit16& packet, int i)
+dvec3 direction(const RTCRayHit8& packet, int i)
 {
     return {packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]};
 }
@@ -53,14 +53,15 @@ dvec3 direction(const RTCRayHit16& packet, int i)
 /// single-sided material run again. They start anew instead of behind that hit: its front-facing twin may lie in the same place.
 void Tile::trace(int x0, int y0) const
 {
-    alignas(64) RTCRayHit16 packet;
-    alignas(64) int valid[lanes];
+    alignas(32) RTCRayHit8 packet;
+    alignas(32) int valid[lanes];
     aim_primary(rays, size, x0, y0, packet, valid);
     Culling c;
     rtcInitIntersectContext(&c.context);
-    rtcIntersect16(valid, geometry.solid(), &c.context, &packet);
+    c.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, geometry.solid(), &c.context, &packet);
     bool any = false;
-    alignas(64) int again[lanes];
+    alignas(32) int again[lanes];
     for (int i = 0; i < lanes; ++i) {
         const uint32_t id = packet.hit.geomID[i];
         again[i] = valid[i] && id != RTC_INVALID_GEOMETRY_ID
@@ -70,26 +71,26 @@ void Tile::trace(int x0, int y0) const
         any = any || again[i];
     }
     if (any) {
-        alignas(64) RTCRayHit16 second;
+        alignas(32) RTCRayHit8 second;
         aim_primary(rays, size, x0, y0, second, valid);
         c.context.filter = cull;
         c.geometry = &geometry;
         for (int i = 0; i < lanes; ++i) c.direction[i] = direction(second, i);
-        rtcIntersect16(again, geometry.solid(), &c.context, &second);
+        rtcIntersect8(again, geometry.solid(), &c.context, &second);
         store(x0, y0, second, again);
     }
     for (int i = 0; i < lanes; ++i) valid[i] = valid[i] && !again[i] ? -1 : 0;
     store(x0, y0, packet, valid);
 }
 
-void Tile::store(int x0, int y0, const RTCRayHit16& packet, const int (&chosen)[lanes]) const
+void Tile::store(int x0, int y0, const RTCRayHit8& packet, const int (&chosen)[lanes]) const
 {
     vec3 normal[lanes];
     size_t pixel[lanes];
     int count = 0;
     for (int i = 0; i < lanes; ++i) {
         if (!chosen[i] || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-        pixel[count] = size_t(y0 + i / quad) * size_t(size.width) + size_t(x0 + i % quad);
+        pixel[count] = size_t(y0 + i / packet_width) * size_t(size.width) + size_t(x0 + i % packet_width);
         locate(packet, i, pixel[count], normal[count]);
         ++count;
     }
@@ -100,14 +101,14 @@ void Tile::store(int x0, int y0, const RTCRayHit16& packet, const int (&chosen)[
     }
 }
 
-void Tile::locate(const RTCRayHit16& packet, int i, size_t pixel, vec3& normal) const
+void Tile::locate(const RTCRayHit8& packet, int i, size_t pixel, vec3& normal) const
 {
     const uint32_t instance = Geometry::instance(packet.hit.geomID[i], packet.hit.instID[0][i]);
     const Geometry::Triangle t = geometry.triangle(instance, packet.hit.primID[i]);
     // From the barycentrics in double: an error in u and v moves the point inside the plane only, while one in the ray's
     // length would move it off.
     const double u = double(packet.hit.u[i]), v = double(packet.hit.v[i]);
-    const vec3 p(dvec3(t.corner[0]) + u * dvec3(t.corner[1] - t.corner[0]) + v * dvec3(t.corner[2] - t.corner[0]));
+    const vec3 p(t.corner + u * t.edge_u + v * t.edge_v);
     out.depth.values[pixel] = rays.depth(p);
     for (int k = 0; k < 3; ++k) out.position.values[pixel * 3 + size_t(k)] = p[k];
     out.primitive[pixel] = geometry.first_primitives()[instance] + packet.hit.primID[i];
@@ -131,8 +132,8 @@ Primary Tracer::primary(const scene::View& view, int threads) const
     const Tile work{impl_->geometry, rays, view.size, result};
     base::Progress progress("tracing the camera's rays", view.size.area());
     for_tiles(view.size, threads, [&](int x0, int y0, int x1, int y1) {
-        for (int y = y0; y < y1; y += quad)
-            for (int x = x0; x < x1; x += quad) work.trace(x, y);
+        for (int y = y0; y < y1; y += packet_height)
+            for (int x = x0; x < x1; x += packet_width) work.trace(x, y);
         progress.advance(uint64_t(x1 - x0) * uint64_t(y1 - y0));
     });
     return result;

@@ -36,8 +36,8 @@ private:
 
 void SoftPixel::measure(uint64_t pixel, const Receiver& r, Estimate (&out)[3])
 {
-    for (int row = 0; row < strata_.side; row += quad)
-        for (int column = 0; column < strata_.side; column += quad) block(pixel, r, column, row);
+    for (int row = 0; row < strata_.side; row += packet_height)
+        for (int column = 0; column < strata_.side; column += packet_width) block(pixel, r, column, row);
     for (int c = 0; c < channels(); ++c) out[c] = estimate(values_[c], strata_.side);
 }
 
@@ -48,7 +48,7 @@ void SoftPixel::block(uint64_t pixel, const Receiver& r, int column0, int row0)
     vec3 through[lanes];
     bool any = false;
     for (int i = 0; i < lanes; ++i) {
-        const int column = column0 + i % quad, row = row0 + i / quad;
+        const int column = column0 + i % packet_width, row = row0 + i / packet_width;
         if (column >= strata_.side || row >= strata_.side) continue;
         const Path path = aim(r, emitter_, scene::light_point(emitter_.light, r.p, strata_.point(pixel, column, row)), packet_, i);
         through[i] = vec3(path == Path::lit ? 1.0f : 0.0f);
@@ -56,7 +56,7 @@ void SoftPixel::block(uint64_t pixel, const Receiver& r, int column0, int row0)
     }
     if (any) trace(geometry_, quantity_, packet_, through);
     for (int i = 0; i < lanes; ++i) {
-        const int column = column0 + i % quad, row = row0 + i / quad;
+        const int column = column0 + i % packet_width, row = row0 + i / packet_width;
         if (column >= strata_.side || row >= strata_.side) continue;
         const size_t stratum = size_t(row) * size_t(strata_.side) + size_t(column);
         for (int c = 0; c < channels(); ++c) values_[c][stratum] = through[i][c];
@@ -91,14 +91,15 @@ void Job::soft(Receivers& receivers, SoftPixel& pixel, int x, int y) const
     }
 }
 
-/// One ray a pixel; a packet is 4x4 pixels.
+/// One ray a pixel; a packet is 4x2 pixels.
 void Job::hard(Receivers& receivers, Packet& packet, vec4 light_point, int x0, int y0, int x1, int y1) const
 {
     packet.clear();
+    for (int row = 0; row < packet_height; ++row) receivers.prefetch(size_t(y0 + row) * size_t(size.width) + size_t(x0) + 4 * packet_width);
     vec3 through[lanes];
     bool any = false;
     for (int i = 0; i < lanes; ++i) {
-        const int x = x0 + i % quad, y = y0 + i / quad;
+        const int x = x0 + i % packet_width, y = y0 + i / packet_width;
         if (x >= x1 || y >= y1) continue;
         const size_t index = size_t(y) * size_t(size.width) + size_t(x);
         Path path = Path::lit;
@@ -112,7 +113,7 @@ void Job::hard(Receivers& receivers, Packet& packet, vec4 light_point, int x0, i
     if (any) trace(geometry, quantity, packet, through);
     const int channels = out.mean.channels;
     for (int i = 0; i < lanes; ++i) {
-        const int x = x0 + i % quad, y = y0 + i / quad;
+        const int x = x0 + i % packet_width, y = y0 + i / packet_width;
         if (x >= x1 || y >= y1) continue;
         for (int c = 0; c < channels; ++c) out.mean.at(x, y, c) = through[i][c];
     }
@@ -133,8 +134,8 @@ Visibility run(const Geometry& geometry, const scene::View& view, const Primary&
         Receivers receivers(geometry, primary);
         SoftPixel pixel(geometry, emitter, strata, quantity);
         Packet packet;
-        for (int y = y0; y < y1; y += light.soft() ? 1 : quad)
-            for (int x = x0; x < x1; x += light.soft() ? 1 : quad) {
+        for (int y = y0; y < y1; y += light.soft() ? 1 : packet_height)
+            for (int x = x0; x < x1; x += light.soft() ? 1 : packet_width) {
                 if (light.soft())
                     job.soft(receivers, pixel, x, y);
                 else

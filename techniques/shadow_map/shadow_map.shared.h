@@ -13,7 +13,7 @@ struct Params {
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
     float bias_constant DEFAULT(0.0f);
-    float bias_slope DEFAULT(0.5f);
+    float bias_slope DEFAULT(0.75f);
     float normal_offset DEFAULT(0.0f);
     int cull DEFAULT(0);
 };

@@ -95,20 +95,42 @@ TEST(TruthSelfShadow, spheres_are_lit_wherever_they_are)
 
 TEST(TruthSelfShadow, a_lamp_modelled_in_its_lights_place_does_not_block_it)
 {
-    std::vector<vec3> points, normals;
-    for (int i = 0; i < 200; ++i) {
-        points.emplace_back(0.05f * float(i) - 5.0f, 0.0f, 0.1f);
-        normals.emplace_back(0, 1, 0);
-    }
-    for (const float height : {2.0f, 0.25f}) {
-        const scene::Scene s = scene_of({level_quad(-20, 20, -20, 20, 0), level_quad(-0.5f, 0.5f, -0.5f, 0.5f, height)});
-        const truth::Tracer tracer(s);
-        for (const scene::LightShape& shape : {scene::LightShape(scene::RectLight{vec3(0, height, 0), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f)}),
-                 scene::LightShape(scene::DiskLight{vec3(0, height, 0), vec3(0, -1, 0), 0.4f}),
-                 scene::LightShape(scene::PointLight{vec3(0.1f, height, 0.1f), 0.0f})}) {
-            const std::vector<double> v = tracer.visibility_at(points, normals, light_of(shape), {});
-            EXPECT_EQ(*std::min_element(v.begin(), v.end()), 1.0) << height << " " << shape.index();
+    for (const vec3 origin : {vec3(0), vec3(310, 20, -170)}) {
+        std::vector<vec3> points, normals;
+        for (int i = 0; i < 400; ++i) {
+            points.push_back(origin + vec3(0.05f * float(i) - 10.0f, 0.0f, 0.1f));
+            normals.emplace_back(0, 1, 0);
         }
+        for (const float height : {2.0f, 0.25f}) {
+            scene::Scene s = scene_of({level_quad(-20, 20, -20, 20, 0), level_quad(-0.5f, 0.5f, -0.5f, 0.5f, height)});
+            for (scene::Instance& i : s.instances) i.world_from_object = glm::translate(mat4(1), origin);
+            const truth::Tracer tracer(s);
+            const vec3 lamp = origin + vec3(0, height, 0);
+            for (const scene::LightShape& shape : {scene::LightShape(scene::RectLight{lamp, vec3(0.5f, 0, 0), vec3(0, 0, 0.5f)}),
+                     scene::LightShape(scene::DiskLight{lamp, vec3(0, -1, 0), 0.4f}),
+                     scene::LightShape(scene::PointLight{lamp + vec3(0.1f, 0, 0.1f), 0.0f})}) {
+                const std::vector<double> v = tracer.visibility_at(points, normals, light_of(shape), {});
+                EXPECT_EQ(*std::min_element(v.begin(), v.end()), 1.0) << height << " " << shape.index() << " " << origin.x;
+            }
+        }
+    }
+}
+
+TEST(TruthSelfShadow, a_tilted_lamp_whose_corners_are_rounded_does_not_block_its_light)
+{
+    for (const vec3 centre : {vec3(0.1f, 2.03f, 0.2f), vec3(310.7f, 22.3f, -170.9f)}) {
+        const vec3 u(0.45f, 0.2f, 0.03f), v(0.01f, 0.02f, 0.5f);
+        scene::Scene s = scene_of({level_quad(-20, 20, -20, 20, 0), quad(centre - u - v, centre + u - v, centre + u + v, centre - u + v)});
+        const vec3 floor = centre - vec3(0, 2.03f, 0);
+        s.instances[0].world_from_object = glm::translate(mat4(1), floor);
+        std::vector<vec3> points, normals;
+        for (int i = 0; i < 400; ++i) {
+            points.push_back(floor + vec3(0.03f * float(i) - 3.0f, 0.0f, 0.1f));
+            normals.emplace_back(0, 1, 0);
+        }
+        const truth::Tracer tracer(s);
+        const std::vector<double> seen = tracer.visibility_at(points, normals, light_of(scene::RectLight{centre, u, v}), {});
+        EXPECT_EQ(*std::min_element(seen.begin(), seen.end()), 1.0) << centre.x;
     }
 }
 
