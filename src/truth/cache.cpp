@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raise it whenever a change of this folder, or of scene::light_point, reaches, view_ray or transmittance, changes a value.
-constexpr uint32_t version = 3;
+constexpr uint32_t version = 4;
 constexpr std::string_view extension = ".truth";
 
 void add_use(base::Hasher& h, const scene::Scene& s, const scene::TextureUse& use)

@@ -6,6 +6,7 @@
 
 #include "shadow/parts/light_map.h"
 
+#include <algorithm>
 #include <random>
 
 namespace gnomon {
@@ -22,9 +23,10 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     std::vector<shaders::MapCase> cases;
     for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5",
              "point,position=20/9/7", "rect,position=0/6/0,target=0/0/0"})
-        for (const auto fit : {shadow::parts::Fit::scene, shadow::parts::Fit::view}) {
+        for (const auto format : {shadow::parts::DepthFormat::d32, shadow::parts::DepthFormat::d16}) {
+            const auto fit = format == shadow::parts::DepthFormat::d32 ? shadow::parts::Fit::scene : shadow::parts::Fit::view;
             const shaders::LightMap map
-                = shadow::parts::fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fit = fit});
+                = shadow::parts::fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fit = fit, .format = format});
             for (int i = 0; i < 300; ++i) {
                 const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
                 cases.push_back({map, p});
@@ -48,6 +50,9 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         ASSERT_NEAR(double(r.z), m.z, 1e-5);
         ASSERT_NEAR(double(r.stored), tests::stored_from_depth(layer, m.depth), 1e-5);
         ASSERT_NEAR(double(r.stored), double(r.z), 1e-5);
+        // nearer the light than the receiver, by no more than the format's step and a few units of rounding
+        ASSERT_GT(r.reference, r.stored);
+        ASSERT_LE(r.reference, std::max(r.stored, 0.0f) * (1.0f + 1e-6f) + map.depth_step * 1.01f);
         ASSERT_NEAR(double(r.linear), m.depth, 2e-5 * double(layer.far));
         ASSERT_NEAR(r.metres, layer.texel_metres * (layer.perspective ? float(m.depth) : 1.0f), 1e-5f * layer.texel_metres * layer.far);
     }
