@@ -202,6 +202,20 @@ TEST(LightMapFit, CubeFacesCoverAllDirectionsWithTheirRim)
     }
 }
 
+TEST(LightMapFit, ACornerOfTheSceneTowardsTheLightIsNotClipped)
+{
+    const Bounds bounds{{-2, 0, -2}, {2, 3, 2}};
+    const scene::View view = scene::make_view(scene::fit_camera(bounds), picture, bounds);
+    for (const float away : {0.01f, 1.0f, 100.0f}) {
+        // along the diagonal, where the depth along a face's axis is 1/sqrt(3) of the distance
+        scene::Light light;
+        light.shape = scene::PointLight{bounds.max + away, 0.0f};
+        expect_held(fit_light_map({}, bounds, view, light, {.size = 64}), {bounds.max, bounds.min}, "point light");
+        light.shape = scene::SpotLight{bounds.max + away, vec3(0, 0, -1), 0.0f, glm::radians(60.0f), 0.0f};
+        expect_held(fit_light_map({}, bounds, view, light, {.size = 64}), {bounds.max}, "spot");
+    }
+}
+
 TEST(LightMapFit, AStepOfATexelIsATexel)
 {
     const scene::Scene scene = balls();
