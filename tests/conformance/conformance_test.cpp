@@ -4,6 +4,7 @@
 #include "base/image_file.h"
 #include "lab/folder.h"
 #include "lab/render.h"
+#include "scene/load.h"
 
 #include <gtest/gtest.h>
 
@@ -210,6 +211,37 @@ TEST_P(Promise, holds_against_truth)
     for (const lab::Run& run : report.runs)
         for (const auto& [metric, value] : run.metrics) RecordProperty(run.light + "." + metric, std::to_string(value));
     EXPECT_EQ(device().validation_errors().size(), before);
+}
+
+/// Opaque scenes: the built-in ones, and the shared ones where they are.
+std::vector<std::string> opaque_scenes()
+{
+    std::vector<std::string> out;
+    for (const scene::Builtin& b : scene::builtins())
+        if (b.opaque) out.emplace_back(b.name);
+    const char* shared = std::getenv("GNOMON_SHARED");
+    const fs::path folder = fs::path(shared ? shared : lab::project_root() / ".." / "shared") / "scenes";
+    for (const char* name : {"shadow_columns.glb", "stanford_group.glb", "cesium_man.glb"})
+        if (fs::exists(folder / name)) out.push_back((folder / name).string());
+    return out;
+}
+
+TEST_P(Promise, exact_methods_are_right_outside_the_band)
+{
+    const shadow::TechniqueInfo& info = *GetParam();
+    const std::string reason = info.unavailable ? info.unavailable(device()) : "";
+    if (!reason.empty()) GTEST_SKIP() << info.id << ": " << reason;
+    if (!info.exact || info.output != shadow::Output::visibility) GTEST_SKIP() << info.id << " is not an exact method for visibility";
+    for (const std::string& name : opaque_scenes()) {
+        const lab::Stage s = lab::open_stage({name, {}, "", {"directional,elevation=40,azimuth=120,angle=0"}, {240, 180}});
+        shadow::SceneGpu scene(device(), s.scene);
+        const truth::Reference truth = truth::reference(s.scene, s.view, s.lights.front(), {.samples = 1});
+        const lab::Rendered rendered = lab::render(device(), scene, s, {&info, shadow::ParamValues(info.params())}, {.lit = false, .aovs = lab::scored_aovs});
+        lab::Run run;
+        lab::score(s, s.lights.front(), truth, rendered, {}, run);
+        EXPECT_EQ(run.metrics.at("wrong_outside_band"), 0.0) << name;
+        EXPECT_LT(double(run.excluded_pixels), 0.01 * double(run.scored_pixels + run.excluded_pixels)) << name;
+    }
 }
 
 TEST_P(Promise, refuses_lights_it_does_not_claim)
