@@ -68,7 +68,10 @@ protected:
         for (size_t i = errors_before_; i < device().validation_errors().size(); ++i) ADD_FAILURE() << device().validation_errors()[i];
     }
 
-    lab::Stage stage(const std::string& scene, base::Size size) const { return lab::open_stage({scene, {}, "", {light_above(GetParam().kind)}, size}); }
+    lab::Stage stage(const std::string& scene, base::Size size) const
+    {
+        return lab::open_stage({scene, {}, "", {light_above(GetParam().kind)}, size});
+    }
 
     base::Picture draw(const lab::Stage& stage, const lab::Choice& choice) const
     {
@@ -76,7 +79,10 @@ protected:
         return lab::render(device(), scene, stage, choice, {.lit = false}).images.front();
     }
     lab::Choice defaults() const { return {GetParam().info, shadow::ParamValues(GetParam().info->params())}; }
-    bool is_light_image() const { return GetParam().info->output == shadow::Output::visibility || GetParam().info->output == shadow::Output::transmittance; }
+    bool is_light_image() const
+    {
+        return GetParam().info->output == shadow::Output::visibility || GetParam().info->output == shadow::Output::transmittance;
+    }
 
     size_t errors_before_ = 0;
 };
@@ -186,10 +192,12 @@ TEST_P(Conformance, golden)
     const std::string skip = lab::golden_skip(device());
     if (!skip.empty()) GTEST_SKIP() << skip;
     const fs::path file = technique_folder(*GetParam().info) / ("golden." + GetParam().kind + ".png");
-    ASSERT_TRUE(fs::exists(file)) << file << " is missing; look at the picture, then `gnomon bless " << GetParam().info->id << " --because ...`";
+    ASSERT_TRUE(fs::exists(file)) << file << " is missing; look at the picture, then `gnomon bless " << GetParam().info->id
+                                  << " --because ...`";
     const lab::TechniqueScene own = lab::read_technique_scene(technique_folder(*GetParam().info));
     const base::Picture got = lab::golden_image(device(), *GetParam().info, GetParam().kind, technique_folder(*GetParam().info));
-    const lab::GoldenDifference d = lab::compare_golden(got, base::read_png(file, base::Encoding::linear), own.golden_pixels, own.golden_mean);
+    const lab::GoldenDifference d
+        = lab::compare_golden(got, base::read_png(file, base::Encoding::linear), own.golden_pixels, own.golden_mean);
     if (d.same) return;
     const fs::path folder = fs::path("golden-failures");
     base::write_png(folder / (case_name({GetParam(), 0}) + ".png"), got, base::Encoding::linear);
@@ -198,7 +206,7 @@ TEST_P(Conformance, golden)
 
 INSTANTIATE_TEST_SUITE_P(Techniques, Conformance, testing::ValuesIn(cases()), case_name);
 
-class Promise : public testing::TestWithParam<const shadow::TechniqueInfo*> {};
+class Promise : public testing::TestWithParam<const shadow::TechniqueInfo*> { };
 
 TEST_P(Promise, holds_against_truth)
 {
@@ -207,7 +215,9 @@ TEST_P(Promise, holds_against_truth)
     if (!reason.empty()) GTEST_SKIP() << info.id << ": " << reason;
     const size_t before = device().validation_errors().size();
     const lab::PromiseReport report = lab::check_promises(device(), info, technique_folder(info));
-    for (const lab::BrokenPromise& b : report.broken) ADD_FAILURE() << info.id << " under a " << b.kind << " light: " << b.metric << " is " << b.measured << ", promised at most " << b.bound;
+    for (const lab::BrokenPromise& b : report.broken)
+        ADD_FAILURE() << info.id << " under a " << b.kind << " light: " << b.metric << " is " << b.measured << ", promised at most "
+                      << b.bound;
     for (const lab::Run& run : report.runs)
         for (const auto& [metric, value] : run.metrics) RecordProperty(run.light + "." + metric, std::to_string(value));
     EXPECT_EQ(device().validation_errors().size(), before);
@@ -236,7 +246,8 @@ TEST_P(Promise, exact_methods_are_right_outside_the_band)
         const lab::Stage s = lab::open_stage({name, {}, "", {"directional,elevation=40,azimuth=120,angle=0"}, {240, 180}});
         shadow::SceneGpu scene(device(), s.scene);
         const truth::Reference truth = truth::reference(s.scene, s.view, s.lights.front(), {.samples = 1});
-        const lab::Rendered rendered = lab::render(device(), scene, s, {&info, shadow::ParamValues(info.params())}, {.lit = false, .aovs = lab::scored_aovs});
+        const lab::Rendered rendered
+            = lab::render(device(), scene, s, {&info, shadow::ParamValues(info.params())}, {.lit = false, .aovs = lab::scored_aovs});
         lab::Run run;
         lab::score(s, s.lights.front(), truth, rendered, {}, run);
         EXPECT_EQ(run.metrics.at("wrong_outside_band"), 0.0) << name;
@@ -248,7 +259,8 @@ TEST_P(Promise, refuses_lights_it_does_not_claim)
 {
     for (int k = 0; k < scene::light_kind_count; ++k) {
         scene::Light light;
-        const scene::LightShape shapes[] = {scene::DirectionalLight{}, scene::SpotLight{}, scene::PointLight{}, scene::RectLight{}, scene::DiskLight{}};
+        const scene::LightShape shapes[]
+            = {scene::DirectionalLight{}, scene::SpotLight{}, scene::PointLight{}, scene::RectLight{}, scene::DiskLight{}};
         light.shape = shapes[k];
         if (GetParam()->lights & (1u << k)) continue;
         EXPECT_NE(shadow::refusal(*GetParam(), device(), light).find(GetParam()->id), std::string::npos);
@@ -260,7 +272,8 @@ TEST_P(Promise, page_has_its_headings)
     const fs::path folder = technique_folder(*GetParam());
     std::ifstream file(folder / "README.md");
     const std::string page((std::istreambuf_iterator<char>(file)), {});
-    for (const char* heading : {"## In one sentence", "## Picture", "## How it works", "## Parameters", "## What it costs", "## How wrong it is", "## Where it fails", "## Differs from the paper", "## References"})
+    for (const char* heading : {"## In one sentence", "## Picture", "## How it works", "## Parameters", "## What it costs",
+             "## How wrong it is", "## Where it fails", "## Differs from the paper", "## References"})
         EXPECT_NE(page.find(heading), std::string::npos) << folder << " lacks " << heading;
 }
 
