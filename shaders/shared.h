@@ -6,8 +6,12 @@
 #ifdef __cplusplus
 #include "scene/math.h"
 #include <cstdint>
-#define SHARED_BEGIN(name) namespace gnomon::shaders { using uint = uint32_t;
-#define TECHNIQUE_BEGIN(id) namespace gnomon::techniques::id { using namespace gnomon::shaders;
+#define SHARED_BEGIN(name)                                                                                                                 \
+    namespace gnomon::shaders {                                                                                                            \
+    using uint = uint32_t;
+#define TECHNIQUE_BEGIN(id)                                                                                                                \
+    namespace gnomon::techniques::id {                                                                                                     \
+    using namespace gnomon::shaders;
 #define SHARED_END }
 #define DEFAULT(value) = value
 #else

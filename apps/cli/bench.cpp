@@ -14,8 +14,10 @@ int bench(const Bench& options)
     const std::vector<std::string> techniques = options.techniques.empty() ? std::vector<std::string>{"shadow_map"} : options.techniques;
     const lab::Bench result = lab::bench(*device, {stage_options(options.picture), techniques, options.repeats});
     demand_valid(*device);
-    if (options.common.json) fmt::print("{}\n", lab::bench_json(result).dump(1));
-    else fmt::print("{}", lab::bench_table(result));
+    if (options.common.json)
+        fmt::print("{}\n", lab::bench_json(result).dump(1));
+    else
+        fmt::print("{}", lab::bench_table(result));
     return 0;
 }
 

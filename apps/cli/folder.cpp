@@ -51,8 +51,10 @@ int picture(const Folder& options)
     std::vector<fs::path> files;
     for (const shadow::TechniqueInfo* info : techniques) {
         const std::string reason = info->unavailable ? info->unavailable(*device) : "";
-        if (!reason.empty()) fmt::print(stderr, "gnomon: {} is skipped: {}\n", info->id, reason);
-        else files.push_back(lab::make_picture(*device, *info, root / "techniques" / info->id));
+        if (!reason.empty())
+            fmt::print(stderr, "gnomon: {} is skipped: {}\n", info->id, reason);
+        else
+            files.push_back(lab::make_picture(*device, *info, root / "techniques" / info->id));
         progress.advance();
     }
     demand_valid(*device);

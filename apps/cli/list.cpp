@@ -30,7 +30,8 @@ int list_scenes(const List& options)
         Json cameras = Json::array(), lights = Json::array();
         for (const scene::Camera& c : scene.cameras) cameras.push_back(c.name);
         for (const scene::Light& l : scene.lights) lights.push_back(l.name);
-        json.push_back({{"name", b.name}, {"triangles", scene.triangle_count()}, {"help", b.help}, {"cameras", cameras}, {"lights", lights}});
+        json.push_back(
+            {{"name", b.name}, {"triangles", scene.triangle_count()}, {"help", b.help}, {"cameras", cameras}, {"lights", lights}});
         if (!options.common.json) fmt::print("{:<16} {:>8} triangles  {}\n", b.name, scene.triangle_count(), b.help);
     }
     if (options.common.json) fmt::print("{}\n", json.dump(1));
@@ -44,8 +45,10 @@ Json parameters_json(const shadow::TechniqueInfo& info)
     Json out = Json::array();
     for (const shadow::ParamInfo& p : values.table().fields) {
         Json entry = {{"name", p.name}, {"default", defaults[p.name]}, {"unit", p.unit}, {"help", p.help}};
-        if (!p.choices.empty()) entry["choices"] = p.choices;
-        else entry["range"] = {p.range.min, p.range.max};
+        if (!p.choices.empty())
+            entry["choices"] = p.choices;
+        else
+            entry["range"] = {p.range.min, p.range.max};
         out.push_back(entry);
     }
     return out;
@@ -57,12 +60,14 @@ int list(const List& options)
 {
     if (options.scenes) return list_scenes(options);
     Json devices = Json::array(), all = Json::array();
-    for (const gpu::DeviceInfo& d : gpu::Device::enumerate()) devices.push_back({{"name", d.name}, {"driver", d.driver}, {"missing", d.missing}});
+    for (const gpu::DeviceInfo& d : gpu::Device::enumerate())
+        devices.push_back({{"name", d.name}, {"driver", d.driver}, {"missing", d.missing}});
     const auto device = open_device(options.common);
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
         const std::string reason = info->unavailable ? info->unavailable(*device) : "";
-        all.push_back({{"id", info->id}, {"title", info->title}, {"family", info->family}, {"output", shadow::output_name(info->output)}, {"lights", lights_text(info->lights)}, {"soft", info->soft},
-            {"exact", info->exact}, {"unavailable", reason}, {"parameters", parameters_json(*info)}});
+        all.push_back({{"id", info->id}, {"title", info->title}, {"family", info->family}, {"output", shadow::output_name(info->output)},
+            {"lights", lights_text(info->lights)}, {"soft", info->soft}, {"exact", info->exact}, {"unavailable", reason},
+            {"parameters", parameters_json(*info)}});
     }
     if (options.common.json) {
         fmt::print("{}\n", Json{{"device", device->info().name}, {"devices", devices}, {"techniques", all}}.dump(1));
@@ -70,12 +75,14 @@ int list(const List& options)
     }
     for (const Json& d : devices) {
         const std::string name = d["name"], missing = d["missing"];
-        fmt::print("device: {}, {}{}\n", name, std::string(d["driver"]), missing.empty() ? (name == device->info().name ? "  <- used" : "") : "  (not usable, lacks " + missing + ")");
+        fmt::print("device: {}, {}{}\n", name, std::string(d["driver"]),
+            missing.empty() ? (name == device->info().name ? "  <- used" : "") : "  (not usable, lacks " + missing + ")");
     }
     fmt::print("\n{:<22} {:<14} {:<26} {}\n", "technique", "output", "lights", "title");
     for (const Json& t : all) {
         const std::string reason = t["unavailable"];
-        fmt::print("{:<22} {:<14} {:<26} {}{}\n", std::string(t["id"]), std::string(t["output"]), std::string(t["lights"]), std::string(t["title"]), reason.empty() ? "" : "\n    not here: " + reason);
+        fmt::print("{:<22} {:<14} {:<26} {}{}\n", std::string(t["id"]), std::string(t["output"]), std::string(t["lights"]),
+            std::string(t["title"]), reason.empty() ? "" : "\n    not here: " + reason);
     }
     return 0;
 }

@@ -22,9 +22,11 @@ void add_common(CLI::App& app, cli::Common& common, bool device = true)
 
 void add_picture(CLI::App& app, cli::Picture& picture)
 {
-    app.add_option("scene", picture.scene, "A built-in scene (see `gnomon list --scenes`), a .glb or .gltf file, or a scene .json")->required();
+    app.add_option("scene", picture.scene, "A built-in scene (see `gnomon list --scenes`), a .glb or .gltf file, or a scene .json")
+        ->required();
     app.add_option("--camera", picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
-    app.add_option("--light", picture.lights, "A light of the scene by name, or kind,key=value,... (sun,elevation=40,azimuth=120,angle=0.53); may be repeated");
+    app.add_option("--light", picture.lights,
+        "A light of the scene by name, or kind,key=value,... (sun,elevation=40,azimuth=120,angle=0.53); may be repeated");
     app.add_option("--size", picture.size, "Width and height in pixels, as 960x540")->capture_default_str();
     app.add_option("--time", picture.time, "Seconds into the scene's animation")->capture_default_str();
     app.add_option("--detail", picture.detail, "Triangle count of a built-in scene, times this")->capture_default_str();
@@ -38,7 +40,8 @@ std::vector<std::string> technique_options(const CLI::App& app, const std::strin
     const std::vector<std::string> rest = app.remaining();
     for (size_t i = 0; i < rest.size(); ++i) {
         const std::string& word = rest[i];
-        if (word.rfind("--" + technique + ".", 0) != 0) cli::refuse_words(app, {word}, fmt::format(" (parameters are given as --{}.NAME VALUE)", technique));
+        if (word.rfind("--" + technique + ".", 0) != 0)
+            cli::refuse_words(app, {word}, fmt::format(" (parameters are given as --{}.NAME VALUE)", technique));
         std::string item = word.substr(3 + technique.size());
         if (item.find('=') == std::string::npos) {
             if (i + 1 >= rest.size()) throw cli::UsageError(word + " needs a value");
@@ -66,12 +69,26 @@ int run(int argc, char** argv)
     add_picture(*render_app, render.picture);
     render_app->add_option("--technique", render.technique, "Technique, by its id")->capture_default_str();
     render_app->add_option("-o,--output", render.output, "PNG or EXR file (default: out/SCENE.TECHNIQUE.png)");
-    render_app->add_option("--aov", render.aovs, "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion")->delimiter(',');
-    render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")->check(CLI::Range(1, 4096))->capture_default_str();
-    render_app->add_option("--frame", render.frame, "Frame number: the only clock and seed")->check(CLI::NonNegativeNumber)->capture_default_str();
-    render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(1, 10000))->capture_default_str();
-    render_app->add_option("--exposure", render.exposure, "Stops brighter or darker")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
-    render_app->add_option("--ambient", render.ambient, "Light from all around, relative to the lights")->check(CLI::Range(0.0, 100.0))->capture_default_str();
+    render_app
+        ->add_option("--aov", render.aovs,
+            "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, "
+            "primitive, position, motion")
+        ->delimiter(',');
+    render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    render_app->add_option("--frame", render.frame, "Frame number: the only clock and seed")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    render_app->add_option("--exposure", render.exposure, "Stops brighter or darker")
+        ->check(CLI::Range(-20.0, 20.0))
+        ->capture_default_str();
+    render_app->add_option("--ambient", render.ambient, "Light from all around, relative to the lights")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
     render_app->allow_extras();
     add_common(*render_app, render.common);
 
@@ -79,17 +96,27 @@ int run(int argc, char** argv)
     CLI::App* truth_app = app.add_subcommand("truth", "Ray-traced visibility with its variance, by the CPU");
     add_picture(*truth_app, truth.picture);
     truth_app->add_option("-o,--output", truth.output, "EXR file; a PNG is written beside it (default: out/SCENE.truth.exr)");
-    truth_app->add_option("--samples", truth.samples, "Light samples a pixel, for lights with an area")->check(CLI::Range(1, 1 << 20))->capture_default_str();
+    truth_app->add_option("--samples", truth.samples, "Light samples a pixel, for lights with an area")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
     truth_app->add_flag("--transmittance", truth.transmittance, "Colour through semitransparent casters instead of visibility");
     add_common(*truth_app, truth.common, false);
 
     cli::Compare compare;
     CLI::App* compare_app = app.add_subcommand("compare", "Techniques beside the truth: pictures, error maps, times, memory");
     add_picture(*compare_app, compare.picture);
-    compare_app->add_option("--techniques,--technique", compare.techniques, "Ids, with parameters after colons: shadow_map,shadow_map:map_size=2048:pcf=5")->delimiter(',')->required();
+    compare_app
+        ->add_option(
+            "--techniques,--technique", compare.techniques, "Ids, with parameters after colons: shadow_map,shadow_map:map_size=2048:pcf=5")
+        ->delimiter(',')
+        ->required();
     compare_app->add_option("-o,--output", compare.output, "Folder for pictures and results.json (default: out/compare-SCENE)");
-    compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")->check(CLI::Range(1, 1 << 20))->capture_default_str();
-    compare_app->add_option("--repeats", compare.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(1, 10000))->capture_default_str();
+    compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    compare_app->add_option("--repeats", compare.repeats, "Timed repetitions after a warm-up")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
     add_common(*compare_app, compare.common);
 
     cli::Bench bench;
@@ -99,7 +126,9 @@ int run(int argc, char** argv)
     add_picture(*bench_app, bench.picture);
     bench_app->get_option("scene")->required(false);
     bench_app->add_option("--techniques", bench.techniques, "Ids with parameters (default: shadow_map)")->delimiter(',');
-    bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(2, 10000))->capture_default_str();
+    bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")
+        ->check(CLI::Range(2, 10000))
+        ->capture_default_str();
     add_common(*bench_app, bench.common);
 
     cli::Folder fresh, picture, docs, bless;
@@ -110,8 +139,10 @@ int run(int argc, char** argv)
     docs_app->add_flag("--check", docs.check, "Change nothing; fail where a page is stale");
     CLI::App* bless_app = app.add_subcommand("bless", "Accept techniques' present pictures as goldens");
     bless_app->add_option("--because", bless.because, "Why they changed")->required();
-    for (const auto& [sub, options] : {std::pair{picture_app, &picture}, {bless_app, &bless}}) sub->add_option("ids", options->ids, "Technique ids (default: all)");
-    for (const auto& [sub, options] : {std::pair{new_app, &fresh}, {picture_app, &picture}, {docs_app, &docs}, {bless_app, &bless}}) add_common(*sub, options->common, sub != new_app && sub != docs_app);
+    for (const auto& [sub, options] : {std::pair{picture_app, &picture}, {bless_app, &bless}})
+        sub->add_option("ids", options->ids, "Technique ids (default: all)");
+    for (const auto& [sub, options] : {std::pair{new_app, &fresh}, {picture_app, &picture}, {docs_app, &docs}, {bless_app, &bless}})
+        add_common(*sub, options->common, sub != new_app && sub != docs_app);
 
     cli::Convert convert;
     CLI::App* convert_app = app.add_subcommand("convert", "Turn a list of scenes with cameras and lights (scenes.json) into scene files");

@@ -22,8 +22,10 @@ lab::StageOptions stage_options(const Picture& picture)
     const std::string& text = picture.size;
     const char* end = text.data() + text.size();
     const auto [cross, first] = std::from_chars(text.data(), end, out.size.width);
-    const auto [last, second] = cross != end && *cross == 'x' ? std::from_chars(cross + 1, end, out.size.height) : std::from_chars_result{cross, std::errc::invalid_argument};
-    if (first != std::errc() || second != std::errc() || last != end) base::fail("--size takes WIDTHxHEIGHT in pixels, as 960x540, not '{}'", text);
+    const auto [last, second] = cross != end && *cross == 'x' ? std::from_chars(cross + 1, end, out.size.height)
+                                                              : std::from_chars_result{cross, std::errc::invalid_argument};
+    if (first != std::errc() || second != std::errc() || last != end)
+        base::fail("--size takes WIDTHxHEIGHT in pixels, as 960x540, not '{}'", text);
     lab::check_size(out.size);
     return out;
 }
@@ -33,7 +35,8 @@ namespace {
 void check_aovs(const std::vector<std::string>& names)
 {
     for (const std::string& name : names)
-        if (std::find(lab::aov_names().begin(), lab::aov_names().end(), name) == lab::aov_names().end()) throw base::Error(base::unknown_name("aov", name, lab::aov_names()));
+        if (std::find(lab::aov_names().begin(), lab::aov_names().end(), name) == lab::aov_names().end())
+            throw base::Error(base::unknown_name("aov", name, lab::aov_names()));
 }
 
 std::vector<std::string> channel_names(int channels)
@@ -45,9 +48,12 @@ std::vector<std::string> channel_names(int channels)
 
 void write_picture(const fs::path& file, const base::Picture& scene_referred, const base::Picture& shown, base::Encoding encoding)
 {
-    if (file.extension() == ".exr") base::write_exr(file, scene_referred, channel_names(scene_referred.channels));
-    else if (file.extension() == ".png") base::write_png(file, shown, encoding);
-    else base::fail("'{}' is neither .png nor .exr; name the output file so", file.string());
+    if (file.extension() == ".exr")
+        base::write_exr(file, scene_referred, channel_names(scene_referred.channels));
+    else if (file.extension() == ".png")
+        base::write_png(file, shown, encoding);
+    else
+        base::fail("'{}' is neither .png nor .exr; name the output file so", file.string());
 }
 
 } // namespace
@@ -62,16 +68,23 @@ int render(const Render& options)
     }
     const lab::Stage stage = lab::open_stage(stage_options(options.picture));
     for (const std::string& warning : stage.scene.warnings) fmt::print(stderr, "gnomon: warning: {}\n", warning);
-    const fs::path file = options.output.empty() ? fs::path("out") / (fs::path(options.picture.scene).stem().string() + "." + std::string(choice.info->id) + ".png") : fs::path(options.output);
-    if (file.extension() != ".png" && file.extension() != ".exr") base::fail("'{}' is neither .png nor .exr; name the output file so", file.string());
+    const fs::path file = options.output.empty()
+        ? fs::path("out") / (fs::path(options.picture.scene).stem().string() + "." + std::string(choice.info->id) + ".png")
+        : fs::path(options.output);
+    if (file.extension() != ".png" && file.extension() != ".exr")
+        base::fail("'{}' is neither .png nor .exr; name the output file so", file.string());
     const auto device = open_device(options.common);
     shadow::SceneGpu scene(*device, stage.scene);
-    lab::RenderSettings settings{.samples = options.samples, .repeats = options.repeats, .frame_index = uint32_t(options.frame), .aovs = {options.aovs.begin(), options.aovs.end()}};
+    lab::RenderSettings settings{.samples = options.samples,
+        .repeats = options.repeats,
+        .frame_index = uint32_t(options.frame),
+        .aovs = {options.aovs.begin(), options.aovs.end()}};
     settings.lighting.ambient = options.ambient;
     const lab::Rendered rendered = lab::render(*device, scene, stage, choice, settings);
     demand_valid(*device);
 
-    nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}, {"passes", nlohmann::ordered_json::array()}, {"technique_ms", rendered.technique_ms}, {"bytes", rendered.technique_bytes}, {"warnings", stage.scene.warnings}};
+    nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}, {"passes", nlohmann::ordered_json::array()},
+        {"technique_ms", rendered.technique_ms}, {"bytes", rendered.technique_bytes}, {"warnings", stage.scene.warnings}};
     write_picture(file, rendered.radiance, lab::display(rendered.radiance, stage, options.exposure), base::Encoding::srgb);
     json["files"].push_back(file.string());
     for (const auto& [name, picture] : rendered.aovs) {
@@ -80,8 +93,10 @@ int render(const Render& options)
         write_picture(aov, picture, lab::aov_display(name, picture), name == "albedo" ? base::Encoding::srgb : base::Encoding::linear);
         json["files"].push_back(aov.string());
     }
-    for (const lab::PassStats& pass : rendered.passes) json["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}});
-    if (options.common.json) fmt::print("{}\n", json.dump(1));
+    for (const lab::PassStats& pass : rendered.passes)
+        json["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}});
+    if (options.common.json)
+        fmt::print("{}\n", json.dump(1));
     else {
         for (const lab::PassStats& pass : rendered.passes) fmt::print("{:<32} {:>9.2f} ms\n", pass.name, pass.ms);
         for (const auto& f : json["files"]) fmt::print("{}\n", f.get<std::string>());

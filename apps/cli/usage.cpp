@@ -24,10 +24,7 @@ std::vector<std::string> subcommand_names(const CLI::App& app)
     return names;
 }
 
-bool is_option(const std::string& word)
-{
-    return word.size() > 1 && word[0] == '-';
-}
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
 
 } // namespace
 

@@ -16,8 +16,7 @@ public:
 };
 
 /// Throws Error with a formatted sentence.
-template <class... Args>
-[[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args)
+template <class... Args> [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args)
 {
     throw Error(fmt::format(text, std::forward<Args>(args)...));
 }

@@ -18,10 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string cause(int error)
-{
-    return std::generic_category().message(error);
-}
+std::string cause(int error) { return std::generic_category().message(error); }
 
 class Descriptor {
 public:
@@ -139,10 +136,7 @@ void write_file(const fs::path& path, std::span<const std::byte> data)
     }
 }
 
-void write_text(const fs::path& path, std::string_view text)
-{
-    write_file(path, std::as_bytes(std::span(text)));
-}
+void write_text(const fs::path& path, std::string_view text) { write_file(path, std::as_bytes(std::span(text))); }
 
 fs::path cache_folder()
 {

@@ -45,14 +45,8 @@ Hasher& Hasher::bytes(std::span<const std::byte> data)
     return *this;
 }
 
-Hasher& Hasher::text(std::string_view text)
-{
-    return bytes(std::as_bytes(std::span(text)));
-}
+Hasher& Hasher::text(std::string_view text) { return bytes(std::as_bytes(std::span(text))); }
 
-std::string Hasher::hex() const
-{
-    return fmt::format("{:016x}{:016x}", finish(a_ + b_), finish(b_ ^ std::rotl(a_, 23)));
-}
+std::string Hasher::hex() const { return fmt::format("{:016x}{:016x}", finish(a_ + b_), finish(b_ ^ std::rotl(a_, 23))); }
 
 } // namespace gnomon::base

@@ -17,14 +17,9 @@ public:
     Hasher& bytes(std::span<const std::byte>);
     Hasher& text(std::string_view);
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    Hasher& value(const T& v)
-    {
-        return bytes(std::as_bytes(std::span(&v, 1)));
-    }
+    requires std::is_trivially_copyable_v<T> Hasher& value(const T& v) { return bytes(std::as_bytes(std::span(&v, 1))); }
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    Hasher& array(const std::vector<T>& v)
+    requires std::is_trivially_copyable_v<T> Hasher& array(const std::vector<T>& v)
     {
         value(v.size());
         return bytes(std::as_bytes(std::span(v)));

@@ -30,14 +30,8 @@ static_assert(longest_side == STBI_MAX_DIMENSIONS);
 
 namespace {
 
-double srgb_from_linear(double v)
-{
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-}
-double linear_from_srgb(double v)
-{
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
+double srgb_from_linear(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
+double linear_from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 uint8_t to_byte(float value, bool srgb)
 {
@@ -46,10 +40,7 @@ uint8_t to_byte(float value, bool srgb)
     return uint8_t((srgb ? srgb_from_linear(v) : v) * 255.0 + 0.5);
 }
 
-bool is_alpha(int channel, int channels)
-{
-    return channels == 4 && channel == 3;
-}
+bool is_alpha(int channel, int channels) { return channels == 4 && channel == 3; }
 
 struct StbFree {
     void operator()(void* p) const { stbi_image_free(p); }

@@ -21,7 +21,9 @@ struct Picture {
 
     Picture() = default;
     Picture(Size s, int channel_count, float value = 0.0f)
-        : size(s), channels(channel_count), values(s.area() * size_t(channel_count), value)
+        : size(s)
+        , channels(channel_count)
+        , values(s.area() * size_t(channel_count), value)
     {
     }
     float& at(int x, int y, int c = 0) { return values[(size_t(y) * size_t(size.width) + size_t(x)) * size_t(channels) + size_t(c)]; }

@@ -226,10 +226,7 @@ Barrier transition(SubresourceState& s, const Access& a)
     return b;
 }
 
-Range whole(const ImageState& state)
-{
-    return {0, state.layers, 0, state.mips};
-}
+Range whole(const ImageState& state) { return {0, state.layers, 0, state.mips}; }
 
 std::vector<ImageBarrier> transition(ImageState& state, const Range& range, const Access& access)
 {

@@ -18,30 +18,12 @@ Buffer::Buffer() = default;
 Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 Buffer::~Buffer() = default;
-const BufferDesc& Buffer::desc() const
-{
-    return impl_->desc;
-}
-VkBuffer Buffer::handle() const
-{
-    return impl_->handle;
-}
-VkDeviceAddress Buffer::address() const
-{
-    return impl_->address;
-}
-std::byte* Buffer::mapped() const
-{
-    return impl_->desc.memory == Memory::device ? nullptr : impl_->memory.mapped;
-}
-Buffer::operator bool() const
-{
-    return impl_ != nullptr;
-}
-BufferState& Buffer::state() const
-{
-    return impl_->state;
-}
+const BufferDesc& Buffer::desc() const { return impl_->desc; }
+VkBuffer Buffer::handle() const { return impl_->handle; }
+VkDeviceAddress Buffer::address() const { return impl_->address; }
+std::byte* Buffer::mapped() const { return impl_->desc.memory == Memory::device ? nullptr : impl_->memory.mapped; }
+Buffer::operator bool() const { return impl_ != nullptr; }
+BufferState& Buffer::state() const { return impl_->state; }
 
 Buffer Device::buffer(const BufferDesc& desc)
 {

@@ -140,9 +140,6 @@ bool is_integer(VkFormat);
 base::Picture to_picture(VkFormat, Size, std::span<const std::byte>);
 VkImageMemoryBarrier2 to_vulkan(const Barrier&, const Range&, const Image&);
 VkBufferMemoryBarrier2 to_vulkan(const Barrier&, const Buffer&);
-inline Size mip_size(Size s, uint32_t mip)
-{
-    return {std::max(s.width >> mip, 1), std::max(s.height >> mip, 1)};
-}
+inline Size mip_size(Size s, uint32_t mip) { return {std::max(s.width >> mip, 1), std::max(s.height >> mip, 1)}; }
 
 } // namespace gnomon::gpu

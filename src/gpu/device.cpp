@@ -145,46 +145,16 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& given)
     return device;
 }
 
-const DeviceInfo& Device::info() const
-{
-    return impl_->info;
-}
-VkDevice Device::handle() const
-{
-    return impl_->handle;
-}
-VkPhysicalDevice Device::physical() const
-{
-    return impl_->physical;
-}
-VkInstance Device::instance() const
-{
-    return impl_->instance;
-}
-VkQueue Device::queue() const
-{
-    return impl_->queue;
-}
-uint32_t Device::queue_family() const
-{
-    return impl_->queue_family;
-}
-const VkPhysicalDeviceLimits& Device::limits() const
-{
-    return impl_->properties.limits;
-}
-bool Device::supports(std::string_view extension) const
-{
-    return impl_->extensions.contains(extension);
-}
-VkFormatFeatureFlags2 Device::format_features(VkFormat format) const
-{
-    return impl_->format_features(format);
-}
-uint64_t Device::allocated_bytes() const
-{
-    return impl_->memory->used();
-}
+const DeviceInfo& Device::info() const { return impl_->info; }
+VkDevice Device::handle() const { return impl_->handle; }
+VkPhysicalDevice Device::physical() const { return impl_->physical; }
+VkInstance Device::instance() const { return impl_->instance; }
+VkQueue Device::queue() const { return impl_->queue; }
+uint32_t Device::queue_family() const { return impl_->queue_family; }
+const VkPhysicalDeviceLimits& Device::limits() const { return impl_->properties.limits; }
+bool Device::supports(std::string_view extension) const { return impl_->extensions.contains(extension); }
+VkFormatFeatureFlags2 Device::format_features(VkFormat format) const { return impl_->format_features(format); }
+uint64_t Device::allocated_bytes() const { return impl_->memory->used(); }
 
 const std::vector<std::string>& Device::validation_errors() const
 {

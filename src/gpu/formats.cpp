@@ -12,10 +12,7 @@ namespace gnomon::gpu {
 namespace {
 
 #define FORMAT(name, channels, bytes, numeric)                                                                                             \
-    FormatInfo                                                                                                                             \
-    {                                                                                                                                      \
-        VK_FORMAT_##name, #name, channels, bytes, Numeric::numeric                                                                         \
-    }
+    FormatInfo { VK_FORMAT_##name, #name, channels, bytes, Numeric::numeric }
 constexpr FormatInfo formats[] = {FORMAT(R8_UNORM, 1, 1, unorm), FORMAT(R8_SNORM, 1, 1, snorm), FORMAT(R8_UINT, 1, 1, uint),
     FORMAT(R8_SINT, 1, 1, sint), FORMAT(R8_SRGB, 1, 1, srgb), FORMAT(R8G8_UNORM, 2, 1, unorm), FORMAT(R8G8_SNORM, 2, 1, snorm),
     FORMAT(R8G8_UINT, 2, 1, uint), FORMAT(R8G8B8A8_UNORM, 4, 1, unorm), FORMAT(R8G8B8A8_SNORM, 4, 1, snorm),
@@ -41,10 +38,7 @@ float small_float(uint32_t bits, int mantissa)
     return exponent == 0 ? std::ldexp(scaled, -14) : std::ldexp(1.0f + scaled, int(exponent) - 15);
 }
 
-float from_srgb(float v)
-{
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
+float from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 float decode(const FormatInfo& info, uint32_t bits)
 {

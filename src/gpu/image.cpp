@@ -52,26 +52,11 @@ Image::Image() = default;
 Image::Image(Image&&) noexcept = default;
 Image& Image::operator=(Image&&) noexcept = default;
 Image::~Image() = default;
-const ImageDesc& Image::desc() const
-{
-    return impl_->desc;
-}
-VkImage Image::handle() const
-{
-    return impl_->handle;
-}
-uint64_t Image::bytes() const
-{
-    return impl_->memory.size;
-}
-Image::operator bool() const
-{
-    return impl_ != nullptr;
-}
-ImageState& Image::state() const
-{
-    return impl_->state;
-}
+const ImageDesc& Image::desc() const { return impl_->desc; }
+VkImage Image::handle() const { return impl_->handle; }
+uint64_t Image::bytes() const { return impl_->memory.size; }
+Image::operator bool() const { return impl_ != nullptr; }
+ImageState& Image::state() const { return impl_->state; }
 
 VkImageView Image::view(
     VkImageViewType type, uint32_t first_layer, uint32_t layers, uint32_t first_mip, uint32_t mips, VkImageAspectFlags aspect) const

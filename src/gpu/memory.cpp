@@ -12,15 +12,9 @@ namespace {
 constexpr uint64_t block_bytes = uint64_t(64) << 20;
 constexpr uint64_t own_block_above = uint64_t(16) << 20;
 
-uint64_t align_up(uint64_t value, uint64_t alignment)
-{
-    return (value + alignment - 1) / alignment * alignment;
-}
+uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
-double mebibytes(uint64_t bytes)
-{
-    return double(bytes) / (1 << 20);
-}
+double mebibytes(uint64_t bytes) { return double(bytes) / (1 << 20); }
 
 } // namespace
 
@@ -70,10 +64,7 @@ void Ranges::give(uint64_t offset, uint64_t size)
     free_.emplace(offset, size);
 }
 
-bool Ranges::unused() const
-{
-    return free_.size() == 1 && free_.begin()->second == size_;
-}
+bool Ranges::unused() const { return free_.size() == 1 && free_.begin()->second == size_; }
 
 MemoryPool::MemoryPool(const VolkDeviceTable& vk, VkDevice device, const InstanceFunctions& instance, VkPhysicalDevice physical)
     : vk_(vk)

@@ -13,18 +13,9 @@ PassList::PassList(Device& device)
 }
 PassList::~PassList() = default;
 PassList::PassList(PassList&&) noexcept = default;
-Device& PassList::device() const
-{
-    return impl_->device;
-}
-const ImageDesc& PassList::desc(ImageId id) const
-{
-    return impl_->images.at(id.index).desc;
-}
-void PassList::group(std::string name)
-{
-    impl_->prefix = name.empty() ? std::move(name) : name + "/";
-}
+Device& PassList::device() const { return impl_->device; }
+const ImageDesc& PassList::desc(ImageId id) const { return impl_->images.at(id.index).desc; }
+void PassList::group(std::string name) { impl_->prefix = name.empty() ? std::move(name) : name + "/"; }
 
 ImageId PassList::import(Image& image)
 {

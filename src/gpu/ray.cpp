@@ -9,10 +9,7 @@ namespace gnomon::gpu {
 
 namespace {
 
-VkDeviceAddress aligned(VkDeviceAddress address, uint64_t alignment)
-{
-    return (address + alignment - 1) / alignment * alignment;
-}
+VkDeviceAddress aligned(VkDeviceAddress address, uint64_t alignment) { return (address + alignment - 1) / alignment * alignment; }
 
 void require_ray_tracing(const DeviceInfo& info)
 {
@@ -31,22 +28,10 @@ AccelerationStructure::AccelerationStructure() = default;
 AccelerationStructure::AccelerationStructure(AccelerationStructure&&) noexcept = default;
 AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&&) noexcept = default;
 AccelerationStructure::~AccelerationStructure() = default;
-VkAccelerationStructureKHR AccelerationStructure::handle() const
-{
-    return impl_->handle;
-}
-VkDeviceAddress AccelerationStructure::address() const
-{
-    return impl_->address;
-}
-uint64_t AccelerationStructure::bytes() const
-{
-    return impl_->memory.desc().bytes;
-}
-AccelerationStructure::operator bool() const
-{
-    return impl_ != nullptr;
-}
+VkAccelerationStructureKHR AccelerationStructure::handle() const { return impl_->handle; }
+VkDeviceAddress AccelerationStructure::address() const { return impl_->address; }
+uint64_t AccelerationStructure::bytes() const { return impl_->memory.desc().bytes; }
+AccelerationStructure::operator bool() const { return impl_ != nullptr; }
 
 AccelerationStructure Device::build(
     VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry, uint32_t primitives, const std::string& name)

@@ -31,10 +31,7 @@ const Constants* constants_of(const Pass& pass)
     return nullptr;
 }
 
-uint64_t aligned(uint64_t bytes, uint64_t alignment)
-{
-    return (bytes + alignment - 1) / alignment * alignment;
-}
+uint64_t aligned(uint64_t bytes, uint64_t alignment) { return (bytes + alignment - 1) / alignment * alignment; }
 
 } // namespace
 
@@ -106,10 +103,7 @@ void Recorder::use(ImageId id, const Range& range, Use how, PassKind kind, bool 
     image_uses_.push_back({id.index, range, access, desc.name});
 }
 
-void Recorder::use(BufferId id, Use how, PassKind kind)
-{
-    buffer_uses_.push_back({id.index, access_of(how, kind, false)});
-}
+void Recorder::use(BufferId id, Use how, PassKind kind) { buffer_uses_.push_back({id.index, access_of(how, kind, false)}); }
 
 bool Recorder::declared(BufferId id, Use how) const
 {

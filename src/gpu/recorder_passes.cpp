@@ -8,10 +8,7 @@ namespace gnomon::gpu {
 
 namespace {
 
-Range whole(const ImageDesc& desc)
-{
-    return {0, desc.layers, 0, desc.mips};
-}
+Range whole(const ImageDesc& desc) { return {0, desc.layers, 0, desc.mips}; }
 
 VkAttachmentLoadOp to_vulkan(Load load)
 {
@@ -29,17 +26,11 @@ bool stencil_written(const DepthTarget& d)
 }
 
 /// Tested only: the image may be sampled by the same pass.
-bool read_only(const DepthTarget& d)
-{
-    return d.load == Load::keep && !d.write && !stencil_written(d);
-}
+bool read_only(const DepthTarget& d) { return d.load == Load::keep && !d.write && !stencil_written(d); }
 
 } // namespace
 
-uint32_t render_layers(const RasterPass& pass)
-{
-    return pass.view_mask ? uint32_t(std::bit_width(pass.view_mask)) : pass.layers;
-}
+uint32_t render_layers(const RasterPass& pass) { return pass.view_mask ? uint32_t(std::bit_width(pass.view_mask)) : pass.layers; }
 
 Size render_size(const RasterPass& pass, const ListData& list)
 {

@@ -96,9 +96,6 @@ uint64_t Device::record(PassList&& list, VkCommandBuffer commands)
     return c.last_ticket;
 }
 
-void Device::retire(uint64_t ticket)
-{
-    impl_->retire(ticket);
-}
+void Device::retire(uint64_t ticket) { impl_->retire(ticket); }
 
 } // namespace gnomon::gpu

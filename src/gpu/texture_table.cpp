@@ -14,10 +14,7 @@ TextureTable::TextureTable() = default;
 TextureTable::TextureTable(TextureTable&&) noexcept = default;
 TextureTable& TextureTable::operator=(TextureTable&&) noexcept = default;
 TextureTable::~TextureTable() = default;
-VkDescriptorSet TextureTable::set() const
-{
-    return impl_->set;
-}
+VkDescriptorSet TextureTable::set() const { return impl_->set; }
 
 TextureTable Device::texture_table(std::span<const Image* const> images, std::span<const Sampler> samplers)
 {

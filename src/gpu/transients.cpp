@@ -13,10 +13,7 @@ bool same(const ImageDesc& a, const ImageDesc& b)
         && a.cube == b.cube;
 }
 
-bool same(const BufferDesc& a, const BufferDesc& b)
-{
-    return a.bytes == b.bytes && a.usage == b.usage && a.memory == b.memory;
-}
+bool same(const BufferDesc& a, const BufferDesc& b) { return a.bytes == b.bytes && a.usage == b.usage && a.memory == b.memory; }
 
 /// The pool's first, else a new one; where memory is out, the pool is emptied before giving up.
 template <class List, class Desc, class Make> auto take_or_make(List& list, const Desc& desc, const Make& make, TransientPool& pool)
@@ -50,14 +47,8 @@ Buffer TransientPool::take(const BufferDesc& desc)
         buffers_, desc, [&](const BufferDesc& d) { return device_.buffer(d); }, *this);
 }
 
-void TransientPool::give(Image&& image)
-{
-    images_.push_back({std::move(image), now_});
-}
-void TransientPool::give(Buffer&& buffer)
-{
-    buffers_.push_back({std::move(buffer), now_});
-}
+void TransientPool::give(Image&& image) { images_.push_back({std::move(image), now_}); }
+void TransientPool::give(Buffer&& buffer) { buffers_.push_back({std::move(buffer), now_}); }
 
 void TransientPool::age()
 {

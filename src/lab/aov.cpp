@@ -11,7 +11,8 @@ namespace gnomon::lab {
 
 const std::vector<std::string>& aov_names()
 {
-    static const std::vector<std::string> names = {"visibility", "depth", "normal", "geometric_normal", "albedo", "surface", "primitive", "position", "motion"};
+    static const std::vector<std::string> names
+        = {"visibility", "depth", "normal", "geometric_normal", "albedo", "surface", "primitive", "position", "motion"};
     return names;
 }
 
@@ -45,7 +46,8 @@ void unproject(const base::Picture& stored, const scene::View& view, base::Pictu
         for (int x = 0; x < stored.size.width; ++x) {
             const float z = stored.at(x, y);
             if (z == 0.0f) continue;
-            const vec2 ndc = vec2((float(x) + 0.5f) / float(stored.size.width), (float(y) + 0.5f) / float(stored.size.height)) * 2.0f - 1.0f;
+            const vec2 ndc
+                = vec2((float(x) + 0.5f) / float(stored.size.width), (float(y) + 0.5f) / float(stored.size.height)) * 2.0f - 1.0f;
             const vec4 h = view.world_from_clip * vec4(ndc, z, 1.0f);
             const vec3 p = vec3(h) / h.w;
             depth.at(x, y) = -(view.view_from_world * vec4(p, 1)).z;
@@ -83,7 +85,8 @@ AovCopies::AovCopies(gpu::Device& device, base::Size size, const std::set<std::s
 
 void AovCopies::record(gpu::PassList& passes, const shadow::GBuffer& g)
 {
-    const std::pair<const char*, gpu::ImageId> sources[] = {{"depth", g.depth}, {"normal", g.normal}, {"albedo", g.albedo}, {"surface", g.surface}, {"primitive", g.primitive}, {"motion", g.motion}};
+    const std::pair<const char*, gpu::ImageId> sources[] = {{"depth", g.depth}, {"normal", g.normal}, {"albedo", g.albedo},
+        {"surface", g.surface}, {"primitive", g.primitive}, {"motion", g.motion}};
     for (const auto& [name, id] : sources)
         if (auto found = images_.find(name); found != images_.end() && id) passes.copy(id, passes.import(found->second), "copy aov");
 }
@@ -132,9 +135,12 @@ base::Picture aov_display(const std::string& name, const base::Picture& in)
     for (size_t i = 0; i < in.size.area(); ++i)
         for (size_t c = 0; c < 3; ++c) {
             const float v = in.values[i * size_t(in.channels) + std::min(c, size_t(in.channels) - 1)];
-            if (name == "primitive") out.values[i * 3 + c] = v < 0 ? 0.0f : float((uint32_t(v) * 2654435761u >> (8 * c)) & 0xff) / 255.0f;
-            else if (name == "depth") out.values[i * 3 + c] = v == 0 ? 0.0f : 1.0f - v / largest;
-            else out.values[i * 3 + c] = name == "motion" || name == "position" ? 0.5f + 0.5f * v / largest : v;
+            if (name == "primitive")
+                out.values[i * 3 + c] = v < 0 ? 0.0f : float((uint32_t(v) * 2654435761u >> (8 * c)) & 0xff) / 255.0f;
+            else if (name == "depth")
+                out.values[i * 3 + c] = v == 0 ? 0.0f : 1.0f - v / largest;
+            else
+                out.values[i * 3 + c] = name == "motion" || name == "position" ? 0.5f + 0.5f * v / largest : v;
         }
     return out;
 }

@@ -15,7 +15,10 @@ namespace gnomon::lab {
 
 namespace {
 
-double milliseconds(std::chrono::steady_clock::time_point begin) { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count(); }
+double milliseconds(std::chrono::steady_clock::time_point begin)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
 
 void measure_embree(Bench& out, const truth::Tracer& tracer, const Stage& stage)
 {
@@ -35,7 +38,8 @@ Bench bench(gpu::Device& device, const BenchOptions& options)
 {
     Stage stage = open_stage(options.stage);
     stage.lights.resize(1);
-    Bench out{device.info().name, device.info().driver, stage.scene_name, std::string(scene::kind_name(stage.lights.front().kind())), stage.view.size, stage.scene.triangle_count(), 0, 0, 0, {}};
+    Bench out{device.info().name, device.info().driver, stage.scene_name, std::string(scene::kind_name(stage.lights.front().kind())),
+        stage.view.size, stage.scene.triangle_count(), 0, 0, 0, {}};
     base::Progress progress("bench " + out.scene, options.techniques.size() + 1);
     const truth::Tracer tracer(stage.scene);
     out.bvh_ms = tracer.build_ms();
@@ -62,12 +66,17 @@ Bench bench(gpu::Device& device, const BenchOptions& options)
 
 std::string bench_table(const Bench& b)
 {
-    std::string out = fmt::format("{} ({})\n{}: {} triangles, {} light, {}x{}\n", b.device, b.driver, b.scene, b.triangles, b.light, b.size.width, b.size.height);
-    out += fmt::format("Embree, packets of 16, primary + shadow rays: {:.1f} ms; truth's own: {:.1f} ms ({:.2f}x); BVH build {:.1f} ms, apart\n", b.embree_packets_ms, b.truth_ms, b.truth_ms / b.embree_packets_ms, b.bvh_ms);
+    std::string out = fmt::format(
+        "{} ({})\n{}: {} triangles, {} light, {}x{}\n", b.device, b.driver, b.scene, b.triangles, b.light, b.size.width, b.size.height);
+    out += fmt::format("Embree, packets, primary + shadow rays: {:.1f} ms; truth's own: {:.1f} ms ({:.2f}x); BVH build {:.1f} ms, apart\n",
+        b.embree_packets_ms, b.truth_ms, b.truth_ms / b.embree_packets_ms, b.bvh_ms);
     out += fmt::format("{:<32} {:>18} {:>20} {:>12}\n", "technique", "G-buffer ms", "own passes ms", "x Embree");
     for (const BenchRow& row : b.rows) {
-        if (!row.skipped.empty()) out += fmt::format("{:<32} skipped: {}\n", row.technique, row.skipped);
-        else out += fmt::format("{:<32} {:>9.2f} +-{:>6.2f} {:>11.2f} +-{:>6.2f} {:>12.2f}\n", row.technique, row.gbuffer_ms, row.gbuffer_deviation, row.technique_ms, row.technique_deviation, row.ratio);
+        if (!row.skipped.empty())
+            out += fmt::format("{:<32} skipped: {}\n", row.technique, row.skipped);
+        else
+            out += fmt::format("{:<32} {:>9.2f} +-{:>6.2f} {:>11.2f} +-{:>6.2f} {:>12.2f}\n", row.technique, row.gbuffer_ms,
+                row.gbuffer_deviation, row.technique_ms, row.technique_deviation, row.ratio);
         for (const PassStats& pass : row.passes) out += fmt::format("    {:<28} {:>9.2f} +-{:>6.2f}\n", pass.name, pass.ms, pass.deviation);
     }
     return out;
@@ -75,12 +84,16 @@ std::string bench_table(const Bench& b)
 
 nlohmann::ordered_json bench_json(const Bench& b)
 {
-    nlohmann::ordered_json out = {{"device", b.device}, {"driver", b.driver}, {"scene", b.scene}, {"triangles", b.triangles}, {"light", b.light}, {"size", {b.size.width, b.size.height}},
-        {"embree_packets_ms", b.embree_packets_ms}, {"truth_ms", b.truth_ms}, {"bvh_ms", b.bvh_ms}, {"rows", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json out = {{"device", b.device}, {"driver", b.driver}, {"scene", b.scene}, {"triangles", b.triangles},
+        {"light", b.light}, {"size", {b.size.width, b.size.height}}, {"embree_packets_ms", b.embree_packets_ms}, {"truth_ms", b.truth_ms},
+        {"bvh_ms", b.bvh_ms}, {"rows", nlohmann::ordered_json::array()}};
     for (const BenchRow& row : b.rows) {
         nlohmann::ordered_json r = {{"technique", row.technique}};
-        if (!row.skipped.empty()) r["skipped"] = row.skipped;
-        else r.update(nlohmann::ordered_json{{"gbuffer_ms", row.gbuffer_ms}, {"gbuffer_deviation", row.gbuffer_deviation}, {"technique_ms", row.technique_ms}, {"technique_deviation", row.technique_deviation}, {"ratio", row.ratio}});
+        if (!row.skipped.empty())
+            r["skipped"] = row.skipped;
+        else
+            r.update(nlohmann::ordered_json{{"gbuffer_ms", row.gbuffer_ms}, {"gbuffer_deviation", row.gbuffer_deviation},
+                {"technique_ms", row.technique_ms}, {"technique_deviation", row.technique_deviation}, {"ratio", row.ratio}});
         out["rows"].push_back(r);
     }
     return out;

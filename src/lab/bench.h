@@ -28,7 +28,7 @@ struct Bench {
     std::string device, driver, scene, light;
     base::Size size;
     size_t triangles = 0;
-    double embree_packets_ms = 0; ///< traversal alone, packets of 16, best of three
+    double embree_packets_ms = 0; ///< traversal alone, packets, best of three
     double truth_ms = 0; ///< truth's own primary + visibility, wall time, best of three
     double bvh_ms = 0; ///< Embree's build, not in the ratios
     std::vector<BenchRow> rows;

@@ -51,7 +51,8 @@ public:
             light_ = lights[i].name.empty() ? std::string(scene::kind_name(lights[i].kind())) + std::to_string(i) : lights[i].name;
             run_light(lights[i], progress);
         }
-        if (std::all_of(out_.runs.begin(), out_.runs.end(), [](const Run& r) { return !r.skipped.empty(); })) base::fail("no technique ran: {}", out_.runs.front().skipped);
+        if (std::all_of(out_.runs.begin(), out_.runs.end(), [](const Run& r) { return !r.skipped.empty(); }))
+            base::fail("no technique ran: {}", out_.runs.front().skipped);
         if (!options_.folder.empty()) {
             const std::filesystem::path path = options_.folder / "results.json";
             base::write_text(path, results_json(out_).dump(1) + "\n");
@@ -65,7 +66,8 @@ private:
     {
         auto found = references_.find(quantity);
         if (found != references_.end()) return found->second;
-        return references_[quantity] = truth::reference(stage_.scene, stage_.view, stage_.lights.front(), {.samples = options_.truth_samples}, quantity, options_.truth_cache);
+        return references_[quantity] = truth::reference(
+                   stage_.scene, stage_.view, stage_.lights.front(), {.samples = options_.truth_samples}, quantity, options_.truth_cache);
     }
 
     void run_light(const scene::Light& light, base::Progress& progress)
@@ -74,9 +76,13 @@ private:
         truth_lit_ = {};
         progress.advance();
         for (const Choice& choice : choices_) {
-            Run run{std::string(choice.info->id), stage_.scene_name, stage_.camera.name, light_, stage_.view.size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, shadow::refusal(*choice.info, device_, light)};
-            const bool comparable = choice.info->output == shadow::Output::visibility || choice.info->output == shadow::Output::transmittance;
-            if (run.skipped.empty() && !comparable) run.skipped = fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(choice.info->output));
+            Run run{std::string(choice.info->id), stage_.scene_name, stage_.camera.name, light_, stage_.view.size,
+                choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, shadow::refusal(*choice.info, device_, light)};
+            const bool comparable
+                = choice.info->output == shadow::Output::visibility || choice.info->output == shadow::Output::transmittance;
+            if (run.skipped.empty() && !comparable)
+                run.skipped
+                    = fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(choice.info->output));
             if (run.skipped.empty()) run_choice(choice, light, run);
             out_.runs.push_back(std::move(run));
             progress.advance();
@@ -85,8 +91,10 @@ private:
 
     void run_choice(const Choice& choice, const scene::Light& light, Run& run)
     {
-        const truth::Reference& truth = reference(choice.info->output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility);
-        const Rendered rendered = render(device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
+        const truth::Reference& truth = reference(
+            choice.info->output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility);
+        const Rendered rendered = render(
+            device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
         score(stage_, light, truth, rendered, options_.truth_cache, run, &heat_map);
         if (truth_lit_.empty()) {
@@ -96,7 +104,8 @@ private:
         }
         const base::Picture lit = display(rendered.radiance, stage_);
         run.metrics["flip"] = metrics::flip(lit, truth_lit_, &flip_map);
-        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation, run.bytes = rendered.technique_bytes;
+        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation,
+        run.bytes = rendered.technique_bytes;
         write(run.technique, lit, base::Encoding::srgb);
         write(run.technique + ".visibility", rendered.images.front(), base::Encoding::linear);
         write(run.technique + ".error", heat_map, base::Encoding::linear);
@@ -107,7 +116,8 @@ private:
         if (options_.folder.empty()) return;
         // two settings of one technique must not share a file
         std::string file = file_name(light_) + "." + name;
-        for (int n = 2; std::find(out_.files.begin(), out_.files.end(), options_.folder / (file + ".png")) != out_.files.end(); ++n) file = fmt::format("{}.{}.{}", file_name(light_), name, n);
+        for (int n = 2; std::find(out_.files.begin(), out_.files.end(), options_.folder / (file + ".png")) != out_.files.end(); ++n)
+            file = fmt::format("{}.{}.{}", file_name(light_), name, n);
         out_.files.push_back(options_.folder / (file + ".png"));
         base::write_png(out_.files.back(), picture, encoding);
     }

@@ -42,14 +42,18 @@ Json measured(const fs::path& folder)
 std::string cost_table(const Json& results)
 {
     if (results.is_null()) return "Not measured yet: `gnomon picture` does.\n";
-    std::string out = fmt::format("On {} ({}).\n\n| light | size | pass | ms | deviation |\n| --- | --- | --- | --- | --- |\n", results.at("device").get<std::string>(), results.at("driver").get<std::string>());
+    std::string out = fmt::format("On {} ({}).\n\n| light | size | pass | ms | deviation |\n| --- | --- | --- | --- | --- |\n",
+        results.at("device").get<std::string>(), results.at("driver").get<std::string>());
     for (const Json& run : results.at("runs")) {
         if (run.contains("skipped")) continue;
         const std::string light = run.at("light"), size = fmt::format("{}x{}", run.at("size")[0].get<int>(), run.at("size")[1].get<int>());
         for (const Json& pass : run.at("passes"))
-            out += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} |\n", light, size, pass.at("name").get<std::string>(), pass.at("ms").get<double>(), pass.at("deviation").get<double>());
-        out += fmt::format("| {} | {} | **the technique's own** | **{:.2f}** | {:.2f} |\n", light, size, run.at("technique_ms").get<double>(), run.at("technique_deviation").get<double>());
-        out += fmt::format("| {} | {} | memory beyond the images of the contract | {:.2f} MiB | |\n", light, size, run.at("bytes").get<double>() / 1048576.0);
+            out += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} |\n", light, size, pass.at("name").get<std::string>(),
+                pass.at("ms").get<double>(), pass.at("deviation").get<double>());
+        out += fmt::format("| {} | {} | **the technique's own** | **{:.2f}** | {:.2f} |\n", light, size,
+            run.at("technique_ms").get<double>(), run.at("technique_deviation").get<double>());
+        out += fmt::format("| {} | {} | memory beyond the images of the contract | {:.2f} MiB | |\n", light, size,
+            run.at("bytes").get<double>() / 1048576.0);
     }
     return out;
 }
@@ -61,7 +65,8 @@ std::string error_table(const Json& results)
     for (const Json& run : results.at("runs")) {
         if (run.contains("skipped")) continue;
         for (const auto& [metric, value] : run.at("metrics").items())
-            out += fmt::format("| {} | {} | {} | {:.5g} |\n", run.at("scene").get<std::string>(), run.at("light").get<std::string>(), metric, value.get<double>());
+            out += fmt::format("| {} | {} | {} | {:.5g} |\n", run.at("scene").get<std::string>(), run.at("light").get<std::string>(),
+                metric, value.get<double>());
     }
     return out;
 }
@@ -80,7 +85,8 @@ std::string overview_table()
 {
     std::string out = "| technique | family | lights | output | after |\n| --- | --- | --- | --- | --- |\n";
     for (const shadow::TechniqueInfo* info : shadow::techniques())
-        out += fmt::format("| [{}]({}/README.md) | {} | {} | {} | {} |\n", info->title, info->id, info->family, fmt::join(claimed_kinds(*info), ", "), shadow::output_name(info->output), info->cite);
+        out += fmt::format("| [{}]({}/README.md) | {} | {} | {} | {} |\n", info->title, info->id, info->family,
+            fmt::join(claimed_kinds(*info), ", "), shadow::output_name(info->output), info->cite);
     return out;
 }
 
@@ -89,7 +95,9 @@ std::string gallery(const fs::path& root)
     std::string out;
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
         const fs::path picture = fs::path("techniques") / info->id / (std::string(info->id) + ".png");
-        if (fs::exists(root / picture)) out += fmt::format("**[{}](techniques/{}/README.md)** ({}), beside the ray-traced truth and its error\n\n![{}]({})\n\n", info->title, info->id, info->cite, info->title, picture.generic_string());
+        if (fs::exists(root / picture))
+            out += fmt::format("**[{}](techniques/{}/README.md)** ({}), beside the ray-traced truth and its error\n\n![{}]({})\n\n",
+                info->title, info->id, info->cite, info->title, picture.generic_string());
     }
     return out;
 }
@@ -112,7 +120,8 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
         const fs::path folder = root / "techniques" / info->id;
         if (!fs::is_directory(folder)) continue; // a technique of another root
         const Json results = measured(folder);
-        update(folder / "README.md", {{"parameters", parameter_table(*info)}, {"cost", cost_table(results)}, {"error", error_table(results)}});
+        update(
+            folder / "README.md", {{"parameters", parameter_table(*info)}, {"cost", cost_table(results)}, {"error", error_table(results)}});
     }
     update(root / "techniques" / "README.md", {{"techniques", overview_table()}});
     update(root / "README.md", {{"gallery", gallery(root)}});

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 fs::path project_root()
 {
     if (const char* given = std::getenv("GNOMON_ROOT")) {
-        if (!fs::is_directory(fs::path(given) / "techniques")) base::fail("GNOMON_ROOT is '{}', which holds no folder techniques/; set it to a checkout of Gnomon", given);
+        if (!fs::is_directory(fs::path(given) / "techniques"))
+            base::fail("GNOMON_ROOT is '{}', which holds no folder techniques/; set it to a checkout of Gnomon", given);
         return given;
     }
     for (fs::path at = fs::current_path(); !at.empty(); at = at.parent_path()) {
@@ -33,7 +34,8 @@ using Json = nlohmann::ordered_json;
 void known_keys(const Json& object, const std::vector<std::string>& keys, const fs::path& file)
 {
     for (const auto& [key, value] : object.items())
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) base::fail("{}: {}", file.string(), base::unknown_name("key", key, keys));
+        if (std::find(keys.begin(), keys.end(), key) == keys.end())
+            base::fail("{}: {}", file.string(), base::unknown_name("key", key, keys));
 }
 
 TechniqueScene parse(const Json& json, const fs::path& file)
@@ -80,9 +82,11 @@ std::vector<std::string> claimed_kinds(const shadow::TechniqueInfo& info)
 Stage technique_stage(const TechniqueScene& own, const std::string& kind, base::Size size)
 {
     const auto light = own.lights.find(kind);
-    if (light == own.lights.end()) base::fail("scene.json names no light of kind {}, which the technique claims; add \"{}\" to its \"lights\"", kind, kind);
+    if (light == own.lights.end())
+        base::fail("scene.json names no light of kind {}, which the technique claims; add \"{}\" to its \"lights\"", kind, kind);
     Stage stage = open_stage({own.scene, {.detail = own.detail}, own.camera, {light->second}, size});
-    if (scene::kind_name(stage.lights.front().kind()) != kind) base::fail("scene.json: the light '{}' is {}, not {}", light->second, scene::kind_name(stage.lights.front().kind()), kind);
+    if (scene::kind_name(stage.lights.front().kind()) != kind)
+        base::fail("scene.json: the light '{}' is {}, not {}", light->second, scene::kind_name(stage.lights.front().kind()), kind);
     return stage;
 }
 
@@ -93,7 +97,8 @@ Choice technique_choice(const shadow::TechniqueInfo& info, const TechniqueScene&
     return choice;
 }
 
-PromiseReport check_promises(gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder, base::Size size, const fs::path& truth_cache)
+PromiseReport check_promises(
+    gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder, base::Size size, const fs::path& truth_cache)
 {
     const TechniqueScene own = read_technique_scene(folder);
     const Choice choice = technique_choice(info, own);
@@ -101,16 +106,22 @@ PromiseReport check_promises(gpu::Device& device, const shadow::TechniqueInfo& i
     for (const std::string& kind : claimed_kinds(info)) {
         const Stage stage = technique_stage(own, kind, size);
         shadow::SceneGpu scene(device, stage.scene);
-        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, {}};
-        const truth::Quantity quantity = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
-        const truth::Reference truth = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
+        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0,
+            0, 0, {}};
+        const truth::Quantity quantity
+            = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+        const truth::Reference truth
+            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
         score(stage, stage.lights.front(), truth, rendered, truth_cache, run);
         const auto promise = own.promise.find(kind);
-        if (promise == own.promise.end()) base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);
+        if (promise == own.promise.end())
+            base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);
         for (const auto& [metric, bound] : promise->second) {
             const auto measured = run.metrics.find(metric);
-            if (measured == run.metrics.end()) base::fail("{}: the promise names '{}', which is not measured for {} lights here", (folder / "scene.json").string(), metric, kind);
+            if (measured == run.metrics.end())
+                base::fail(
+                    "{}: the promise names '{}', which is not measured for {} lights here", (folder / "scene.json").string(), metric, kind);
             // a NaN is a broken promise too
             if (!(measured->second <= bound)) out.broken.push_back({kind, metric, bound, measured->second});
         }

@@ -63,7 +63,8 @@ struct PromiseReport {
     std::vector<Run> runs;
     std::vector<BrokenPromise> broken;
 };
-PromiseReport check_promises(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder, base::Size size = {384, 256}, const std::filesystem::path& truth_cache = {});
+PromiseReport check_promises(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder, base::Size size = {384, 256},
+    const std::filesystem::path& truth_cache = {});
 
 /// Copies techniques/_template to techniques/<id> with the names filled in; returns the files. Refuses ids that are not lower-case
 /// names or that exist.

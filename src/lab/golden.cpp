@@ -35,7 +35,8 @@ GoldenDifference compare_golden(const base::Picture& got, const base::Picture& g
     GoldenDifference out;
     if (got.size != golden.size || got.channels != golden.channels) {
         out.same = false;
-        out.text = fmt::format("the golden is {}x{} with {} channels, the picture {}x{} with {}", golden.size.width, golden.size.height, golden.channels, got.size.width, got.size.height, got.channels);
+        out.text = fmt::format("the golden is {}x{} with {} channels, the picture {}x{} with {}", golden.size.width, golden.size.height,
+            golden.channels, got.size.width, got.size.height, got.channels);
         return out;
     }
     size_t broken = 0;
@@ -47,7 +48,8 @@ GoldenDifference compare_golden(const base::Picture& got, const base::Picture& g
                 const float v = got.at(x, y, c);
                 broken += !std::isfinite(v);
                 // as the file holds it
-                const int difference = std::abs(int(std::lround(std::clamp(std::isfinite(v) ? v : 0.0f, 0.0f, 1.0f) * 255.0f)) - int(std::lround(golden.at(x, y, c) * 255.0f)));
+                const int difference = std::abs(int(std::lround(std::clamp(std::isfinite(v) ? v : 0.0f, 0.0f, 1.0f) * 255.0f))
+                    - int(std::lround(golden.at(x, y, c) * 255.0f)));
                 worst = std::max(worst, difference);
                 sum += difference / 255.0;
             }
@@ -56,24 +58,28 @@ GoldenDifference compare_golden(const base::Picture& got, const base::Picture& g
         }
     out.mean = sum / double(std::max<size_t>(got.values.size(), 1));
     out.same = broken == 0 && double(out.off_pixels) <= pixels * double(got.size.area()) && out.mean <= mean;
-    out.text = fmt::format("pixels off by more than 4/255: {} of {} (allowed {:.0f})\nlargest difference: {}/255 at ({}, {})\nmean difference: {:.6f} (allowed {:.6f})\nvalues that are not finite: {}", out.off_pixels,
-        got.size.area(), pixels * double(got.size.area()), out.largest, out.worst_x, out.worst_y, out.mean, mean, broken);
+    out.text = fmt::format("pixels off by more than 4/255: {} of {} (allowed {:.0f})\nlargest difference: {}/255 at ({}, {})\nmean "
+                           "difference: {:.6f} (allowed {:.6f})\nvalues that are not finite: {}",
+        out.off_pixels, got.size.area(), pixels * double(got.size.area()), out.largest, out.worst_x, out.worst_y, out.mean, mean, broken);
     return out;
 }
 
 std::string bless(gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder, const std::string& because)
 {
-    if (because.find_first_not_of(" \t") == std::string::npos) base::fail("a golden changes only for a reason; give it with --because \"...\"");
+    if (because.find_first_not_of(" \t") == std::string::npos)
+        base::fail("a golden changes only for a reason; give it with --because \"...\"");
     const std::string skip = golden_skip(device);
     if (!skip.empty()) base::fail("{}; bless on that", skip);
     std::string out = fmt::format("{}: {}\n", info.id, because);
     for (const std::string& kind : claimed_kinds(info)) {
         const fs::path file = folder / ("golden." + kind + ".png");
         const base::Picture image = golden_image(device, info, kind, folder);
-        if (!fs::exists(file)) out += fmt::format("  {}: new\n", file.filename().string());
+        if (!fs::exists(file))
+            out += fmt::format("  {}: new\n", file.filename().string());
         else {
             const GoldenDifference d = compare_golden(image, base::read_png(file, base::Encoding::linear));
-            out += fmt::format("  {}: {} pixels off, largest {}/255, mean {:.6f}\n", file.filename().string(), d.off_pixels, d.largest, d.mean);
+            out += fmt::format(
+                "  {}: {} pixels off, largest {}/255, mean {:.6f}\n", file.filename().string(), d.off_pixels, d.largest, d.mean);
         }
         base::write_png(file, image, base::Encoding::linear);
     }

@@ -60,18 +60,23 @@ public:
     {
         const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
         gpu::PassList passes(device_);
-        const GBuffer g = draw_gbuffer(passes, scene_, view, {.material = settings_.lit || aovs, .previous = aovs && aovs->wants("motion") ? &view : nullptr});
+        const GBuffer g = draw_gbuffer(
+            passes, scene_, view, {.material = settings_.lit || aovs, .previous = aovs && aovs->wants("motion") ? &view : nullptr});
         std::vector<ShadowedLight> shadowed;
         for (size_t i = 0; i < stage_.lights.size(); ++i) {
             const gpu::ImageId output = passes.import(targets_.images[i]);
             passes.group(std::string(choice_.info->id));
-            techniques_[i]->record(passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, settings_.frame_index}, choice_.params.bytes());
+            techniques_[i]->record(
+                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, settings_.frame_index}, choice_.params.bytes());
             passes.group("");
             shadowed.push_back({&stage_.lights[i], output});
         }
         passes.copy(g.primitive, passes.import(targets_.primitive), "copy primitive");
         const bool composited = choice_.info->output == Output::visibility || choice_.info->output == Output::transmittance;
-        if (settings_.lit) passes.copy(shade(passes, scene_, g, view, composited ? std::span<const ShadowedLight>(shadowed) : std::span<const ShadowedLight>(), settings_.lighting), passes.import(targets_.radiance), "copy radiance");
+        if (settings_.lit)
+            passes.copy(shade(passes, scene_, g, view,
+                            composited ? std::span<const ShadowedLight>(shadowed) : std::span<const ShadowedLight>(), settings_.lighting),
+                passes.import(targets_.radiance), "copy radiance");
         if (aovs) aovs->record(passes, g);
         return device_.submit(std::move(passes));
     }
@@ -159,7 +164,8 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
     const gpu::Submitted first = renderer.draw(vec2(0), &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
-    if (settings.repeats <= 1) runs.push_back(first.times);
+    if (settings.repeats <= 1)
+        runs.push_back(first.times);
     else
         for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), nullptr).times);
     collect(out, runs, choice.info->id);
@@ -177,7 +183,8 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     return out;
 }
 
-base::Picture shade_with(gpu::Device& device, SceneGpu& scene, const Stage& stage, const std::vector<base::Picture>& images, const LightingSettings& settings)
+base::Picture shade_with(
+    gpu::Device& device, SceneGpu& scene, const Stage& stage, const std::vector<base::Picture>& images, const LightingSettings& settings)
 {
     std::vector<gpu::Image> uploaded;
     for (const base::Picture& picture : images) {

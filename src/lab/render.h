@@ -52,7 +52,8 @@ struct Rendered {
 Rendered render(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, const RenderSettings&);
 
 /// Shades with given images (visibility or transmittance, one a light) instead of a technique's: the lit picture of the truth.
-base::Picture shade_with(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const std::vector<base::Picture>& images, const shadow::LightingSettings&);
+base::Picture shade_with(
+    gpu::Device&, shadow::SceneGpu& scene, const Stage&, const std::vector<base::Picture>& images, const shadow::LightingSettings&);
 
 /// Scene-referred radiance to display-referred linear RGB in [0, 1]: exposure so that a white diffuse surface under the stage's
 /// strongest light comes out near white, then the Khronos PBR Neutral tone curve. `stops` is added to the exposure.

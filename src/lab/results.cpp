@@ -11,8 +11,8 @@ namespace {
 
 nlohmann::ordered_json run_json(const Run& run)
 {
-    nlohmann::ordered_json out = {{"technique", run.technique}, {"scene", run.scene}, {"camera", run.camera}, {"light", run.light}, {"size", {run.size.width, run.size.height}},
-        {"params", nlohmann::ordered_json::parse(run.params)}};
+    nlohmann::ordered_json out = {{"technique", run.technique}, {"scene", run.scene}, {"camera", run.camera}, {"light", run.light},
+        {"size", {run.size.width, run.size.height}}, {"params", nlohmann::ordered_json::parse(run.params)}};
     if (!run.skipped.empty()) {
         out["skipped"] = run.skipped;
         return out;
@@ -39,22 +39,25 @@ std::string cell(const Run& run, const char* metric, const char* format)
 
 nlohmann::ordered_json results_json(const Comparison& comparison)
 {
-    nlohmann::ordered_json out = {{"device", comparison.device}, {"driver", comparison.driver}, {"commit", comparison.commit}, {"runs", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json out = {{"device", comparison.device}, {"driver", comparison.driver}, {"commit", comparison.commit},
+        {"runs", nlohmann::ordered_json::array()}};
     for (const Run& run : comparison.runs) out["runs"].push_back(run_json(run));
     return out;
 }
 
 std::string results_table(const Comparison& comparison)
 {
-    std::string out = fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>17} {:>9}\n", "technique", "light", "wrong", "acne", "leak", "mean abs", "rms", "bias", "flip", "ms", "MiB");
+    std::string out = fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>17} {:>9}\n", "technique", "light", "wrong",
+        "acne", "leak", "mean abs", "rms", "bias", "flip", "ms", "MiB");
     for (const Run& run : comparison.runs) {
         if (!run.skipped.empty()) {
             out += fmt::format("{:<20} {:<14} skipped: {}\n", run.technique, run.light, run.skipped);
             continue;
         }
-        out += fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9.2f} +-{:>5.2f} {:>9.2f}\n", run.technique, run.light, cell(run, "wrong_pixels", "{:.5f}"), cell(run, "acne", "{:.5f}"),
-            cell(run, "leak", "{:.5f}"), cell(run, "mae", "{:.5f}"), cell(run, "rms", "{:.5f}"), cell(run, "bias", "{:+.5f}"), cell(run, "flip", "{:.4f}"), run.technique_ms, run.technique_deviation,
-            double(run.bytes) / (1024.0 * 1024.0));
+        out += fmt::format("{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9.2f} +-{:>5.2f} {:>9.2f}\n", run.technique,
+            run.light, cell(run, "wrong_pixels", "{:.5f}"), cell(run, "acne", "{:.5f}"), cell(run, "leak", "{:.5f}"),
+            cell(run, "mae", "{:.5f}"), cell(run, "rms", "{:.5f}"), cell(run, "bias", "{:+.5f}"), cell(run, "flip", "{:.4f}"),
+            run.technique_ms, run.technique_deviation, double(run.bytes) / (1024.0 * 1024.0));
     }
     return out;
 }

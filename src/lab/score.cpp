@@ -12,10 +12,12 @@ namespace gnomon::lab {
 namespace {
 
 /// Pixels on which the hard truth is not the same all over: another value at one of eight points half a pixel away.
-std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const std::filesystem::path& cache)
+std::vector<uint8_t> edge_band(
+    const Stage& stage, const scene::Light& light, const truth::Reference& truth, const std::filesystem::path& cache)
 {
     std::vector<uint8_t> band(truth.primary.primitive.size(), 0);
-    constexpr std::array<std::array<float, 2>, 8> around = {{{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0, -0.5f}, {0, 0.5f}, {-0.5f, 0}, {0.5f, 0}}};
+    constexpr std::array<std::array<float, 2>, 8> around
+        = {{{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0, -0.5f}, {0, 0.5f}, {-0.5f, 0}, {0.5f, 0}}};
     for (const auto& [dx, dy] : around) {
         const scene::View view = scene::make_view(stage.camera, stage.view.size, stage.bounds, vec2(dx, dy));
         const truth::Reference shifted = truth::reference(stage.scene, view, light, {.samples = 1}, truth::Quantity::visibility, cache);
@@ -23,7 +25,8 @@ std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, co
             if (shifted.visibility.mean.values[i] != truth.visibility.mean.values[i]) band[i] = 1;
     }
     for (size_t i = 0; i < band.size(); ++i) {
-        const vec3 p(truth.primary.position.values[i * 3], truth.primary.position.values[i * 3 + 1], truth.primary.position.values[i * 3 + 2]);
+        const vec3 p(
+            truth.primary.position.values[i * 3], truth.primary.position.values[i * 3 + 1], truth.primary.position.values[i * 3 + 2]);
         const vec3 n(truth.primary.normal.values[i * 3], truth.primary.normal.values[i * 3 + 1], truth.primary.normal.values[i * 3 + 2]);
         const vec4 point = scene::light_point(light, p, vec2(0.5f));
         const vec3 to_light = glm::normalize(point.w == 0.0f ? vec3(point) : vec3(point) - p);
@@ -41,7 +44,8 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
         const bool drawn = raster.primitive[i] != truth::no_primitive, hit = rays.primitive[i] != truth::no_primitive;
         if (!drawn && !hit) continue;
         const auto vector = [i](const base::Picture& p) { return vec3(p.values[3 * i], p.values[3 * i + 1], p.values[3 * i + 2]); };
-        const bool coincident = drawn && hit && std::abs(depth.values[i] - rays.depth.values[i]) < 1e-4f * rays.depth.values[i] && glm::dot(vector(normal), vector(rays.normal)) > 0.99985f;
+        const bool coincident = drawn && hit && std::abs(depth.values[i] - rays.depth.values[i]) < 1e-4f * rays.depth.values[i]
+            && glm::dot(vector(normal), vector(rays.normal)) > 0.99985f;
         mask[i] = drawn && hit && (raster.primitive[i] == rays.primitive[i] || coincident);
         out.excluded_pixels += !mask[i], out.scored_pixels += mask[i];
     }
@@ -50,7 +54,8 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
 
 } // namespace
 
-void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, const std::filesystem::path& cache, Run& out, base::Picture* heat_map)
+void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered,
+    const std::filesystem::path& cache, Run& out, base::Picture* heat_map)
 {
     const base::Picture& image = rendered.images.front();
     const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
@@ -68,7 +73,8 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
         size_t outside = 0;
         if (out.metrics["wrong_pixels"] > 0) {
             const std::vector<uint8_t> band = edge_band(stage, light, truth, cache);
-            for (size_t i = 0; i < mask.size(); ++i) outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
+            for (size_t i = 0; i < mask.size(); ++i)
+                outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
         }
         out.metrics["wrong_outside_band"] = double(outside) / double(out.scored_pixels);
     }

@@ -18,10 +18,14 @@ Stage open_stage(const StageOptions& options)
     stage.scene = scene::load(options.scene, options.load);
     stage.scene_name = stage.scene.name.empty() ? options.scene : stage.scene.name;
     stage.bounds = stage.scene.bounds();
-    if (options.camera.empty()) stage.camera = stage.scene.cameras.empty() ? scene::fit_camera(stage.bounds) : stage.scene.cameras.front();
-    else stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds);
+    if (options.camera.empty())
+        stage.camera = stage.scene.cameras.empty() ? scene::fit_camera(stage.bounds) : stage.scene.cameras.front();
+    else
+        stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds);
     for (const std::string& text : options.lights) stage.lights.push_back(scene::parse_light(text, stage.scene.lights, stage.bounds));
-    if (stage.lights.empty()) stage.lights.push_back(stage.scene.lights.empty() ? scene::parse_light("sun,elevation=50,azimuth=35", {}, stage.bounds) : stage.scene.lights.front());
+    if (stage.lights.empty())
+        stage.lights.push_back(
+            stage.scene.lights.empty() ? scene::parse_light("sun,elevation=50,azimuth=35", {}, stage.bounds) : stage.scene.lights.front());
     stage.view = scene::make_view(stage.camera, options.size, stage.bounds);
     return stage;
 }

@@ -22,20 +22,11 @@ template <class Chosen, class Value> double mean_where(const Comparison& c, Chos
     return count ? sum / double(count) : 0.0;
 }
 
-bool every(const Grey&, size_t)
-{
-    return true;
-}
+bool every(const Grey&, size_t) { return true; }
 
-bool penumbra(const Grey& g, size_t i)
-{
-    return g.truth(i) > fully_dark && g.truth(i) < fully_lit;
-}
+bool penumbra(const Grey& g, size_t i) { return g.truth(i) > fully_dark && g.truth(i) < fully_lit; }
 
-double difference(const Grey& g, size_t i)
-{
-    return double(g.difference(i));
-}
+double difference(const Grey& g, size_t i) { return double(g.difference(i)); }
 
 } // namespace
 
@@ -56,15 +47,9 @@ double max_error(const Comparison& c)
     return largest;
 }
 
-double bias(const Comparison& c)
-{
-    return mean_where(c, every, difference);
-}
+double bias(const Comparison& c) { return mean_where(c, every, difference); }
 
-double bias_penumbra(const Comparison& c)
-{
-    return mean_where(c, penumbra, difference);
-}
+double bias_penumbra(const Comparison& c) { return mean_where(c, penumbra, difference); }
 
 double bias_outside(const Comparison& c)
 {

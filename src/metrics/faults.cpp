@@ -21,10 +21,7 @@ template <class Fault> double fraction(const Comparison& c, Fault fault)
     return scored ? double(found) / double(scored) : 0.0;
 }
 
-bool wrong(const Grey& g, size_t i)
-{
-    return std::abs(g.difference(i)) > 0.5f;
-}
+bool wrong(const Grey& g, size_t i) { return std::abs(g.difference(i)) > 0.5f; }
 
 /// Whether all scored pixels of the 3x3 neighbourhood are on one side. Pixels that are not scored show other surfaces, whose
 /// shadows are no excuse for this one.
@@ -41,10 +38,7 @@ bool no_edge_near(const Grey& g, base::Size size, size_t i)
 
 } // namespace
 
-double wrong_pixels(const Comparison& c)
-{
-    return fraction(c, wrong);
-}
+double wrong_pixels(const Comparison& c) { return fraction(c, wrong); }
 
 double acne(const Comparison& c)
 {

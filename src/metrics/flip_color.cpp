@@ -15,10 +15,7 @@ constexpr double xyz_from_rgb[3][3] = {
     {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382},
 };
 
-constexpr double white(int k)
-{
-    return xyz_from_rgb[k][0] + xyz_from_rgb[k][1] + xyz_from_rgb[k][2];
-}
+constexpr double white(int k) { return xyz_from_rgb[k][0] + xyz_from_rgb[k][1] + xyz_from_rgb[k][2]; }
 
 using Triple = std::array<double, 3>;
 
@@ -73,9 +70,6 @@ Color hunt_lab(const Color& rgb)
     return {float(l), float(0.01 * l * 500 * (f(x) - f(y))), float(0.01 * l * 200 * (f(y) - f(z)))};
 }
 
-double hyab(const Color& a, const Color& b)
-{
-    return double(std::abs(a[0] - b[0])) + std::hypot(double(a[1] - b[1]), double(a[2] - b[2]));
-}
+double hyab(const Color& a, const Color& b) { return double(std::abs(a[0] - b[0])) + std::hypot(double(a[1] - b[1]), double(a[2] - b[2])); }
 
 } // namespace gnomon::metrics

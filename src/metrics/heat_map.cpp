@@ -13,10 +13,7 @@ namespace {
 
 using Rgb = std::array<float, 3>;
 
-constexpr Rgb rgb(int hex)
-{
-    return {float((hex >> 16) & 255) / 255.0f, float((hex >> 8) & 255) / 255.0f, float(hex & 255) / 255.0f};
-}
+constexpr Rgb rgb(int hex) { return {float((hex >> 16) & 255) / 255.0f, float((hex >> 8) & 255) / 255.0f, float(hex & 255) / 255.0f}; }
 
 /// ColorBrewer's RdBu (C. Brewer), which those who cannot tell red from green can read too.
 constexpr std::array<Rgb, 4> dark{rgb(0xffffff), rgb(0x92c5de), rgb(0x2166ac), rgb(0x053061)};
@@ -80,10 +77,7 @@ std::array<int, glyph_height> glyph(char c)
     }
 }
 
-int text_width(const std::string& text)
-{
-    return int(text.size()) * glyph_step - 1;
-}
+int text_width(const std::string& text) { return int(text.size()) * glyph_step - 1; }
 
 void write(base::Picture& p, int x, int y, const std::string& text)
 {

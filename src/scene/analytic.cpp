@@ -48,10 +48,7 @@ bool emits_towards(const LightShape& shape, vec3 p)
 }
 
 /// Length of the overlap of [a0, a1] and [b0, b1].
-double overlap(double a0, double a1, double b0, double b1)
-{
-    return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
-}
+double overlap(double a0, double a1, double b0, double b1) { return std::max(0.0, std::min(a1, b1) - std::max(a0, b0)); }
 
 /// Area of the part of the unit disk with x > s.
 double segment_area(double s)

@@ -140,10 +140,7 @@ Accessor open_accessor(Document& document, const Value& reference, std::initiali
     return a;
 }
 
-void read_floats(Document& document, const Accessor& accessor, float* out)
-{
-    read(document, accessor, out);
-}
+void read_floats(Document& document, const Accessor& accessor, float* out) { read(document, accessor, out); }
 
 std::vector<uint32_t> read_integers(Document& document, const Accessor& accessor)
 {

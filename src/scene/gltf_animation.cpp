@@ -51,10 +51,7 @@ Sampler read_sampler(Document& document, const Value& value)
     return out;
 }
 
-dquat as_quat(const float* v)
-{
-    return dquat(double(v[3]), double(v[0]), double(v[1]), double(v[2]));
-}
+dquat as_quat(const float* v) { return dquat(double(v[3]), double(v[0]), double(v[1]), double(v[2])); }
 
 std::vector<double> sample(const Sampler& s, double time, bool rotation)
 {

@@ -67,10 +67,7 @@ Influences read_influences(Document& document, const Value& primitive, size_t ve
     return out;
 }
 
-mat3 cofactor(const mat3& m)
-{
-    return mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
+mat3 cofactor(const mat3& m) { return mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])); }
 
 } // namespace
 

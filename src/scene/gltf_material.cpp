@@ -6,10 +6,7 @@
 namespace gnomon::scene::gltf {
 namespace {
 
-float unit(double x)
-{
-    return float(std::clamp(x, 0.0, 1.0));
-}
+float unit(double x) { return float(std::clamp(x, 0.0, 1.0)); }
 
 template <int N> glm::vec<N, float> color(const Value& owner, std::string_view key, glm::vec<N, double> otherwise)
 {

@@ -7,10 +7,7 @@
 namespace gnomon::scene::gltf {
 namespace {
 
-bool usable(vec3 p)
-{
-    return std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest;
-}
+bool usable(vec3 p) { return std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest; }
 
 template <class T> void gather(std::vector<T>& values, const std::vector<uint32_t>& source)
 {

@@ -47,10 +47,7 @@ size_t Value::size() const
     return value_->size();
 }
 
-Value Value::operator[](size_t i) const
-{
-    return Value(i < size() ? &(*value_)[i] : nullptr, fmt::format("{}[{}]", path_, i), *file_);
-}
+Value Value::operator[](size_t i) const { return Value(i < size() ? &(*value_)[i] : nullptr, fmt::format("{}[{}]", path_, i), *file_); }
 
 double Value::number() const
 {

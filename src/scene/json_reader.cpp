@@ -39,10 +39,7 @@ JsonReader JsonReader::at(std::string_view key) const
     return {value_.at(std::string(key)), file_, pointer_ + "/" + escaped(key)};
 }
 
-JsonReader JsonReader::at(size_t index) const
-{
-    return {value_.at(index), file_, pointer_ + "/" + std::to_string(index)};
-}
+JsonReader JsonReader::at(size_t index) const { return {value_.at(index), file_, pointer_ + "/" + std::to_string(index)}; }
 
 size_t JsonReader::array_size() const
 {

@@ -15,10 +15,7 @@ using Keys = std::vector<std::string>;
 
 constexpr float largest_size = 1e6f, smallest_size = 1e-6f; // metres
 
-float radians_at(const JsonReader& object, const char* key, float low, float high)
-{
-    return glm::radians(object.at(key).real(low, high));
-}
+float radians_at(const JsonReader& object, const char* key, float low, float high) { return glm::radians(object.at(key).real(low, high)); }
 
 void check_light_keys(const JsonReader& r, Keys keys)
 {

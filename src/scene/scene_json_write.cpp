@@ -13,19 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The shortest decimal that reads back as the same float, instead of the float's long tail as a double.
-Json number(float v)
-{
-    return std::strtod(fmt::format("{}", v).c_str(), nullptr);
-}
+Json number(float v) { return std::strtod(fmt::format("{}", v).c_str(), nullptr); }
 /// Degrees are rounded: seven digits are what radians in float hold.
-Json degrees(float radians)
-{
-    return std::strtod(fmt::format("{:.7g}", glm::degrees(double(radians))).c_str(), nullptr);
-}
-Json vector(vec3 v)
-{
-    return Json::array({number(v.x), number(v.y), number(v.z)});
-}
+Json degrees(float radians) { return std::strtod(fmt::format("{:.7g}", glm::degrees(double(radians))).c_str(), nullptr); }
+Json vector(vec3 v) { return Json::array({number(v.x), number(v.y), number(v.z)}); }
 
 struct ShapeWriter {
     Json& json;

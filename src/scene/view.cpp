@@ -15,10 +15,7 @@ using glm::dmat4;
 using glm::dvec3;
 using glm::dvec4;
 
-bool finite(vec3 v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::array<vec3, 8> corners(const Bounds& b)
 {

@@ -11,7 +11,9 @@ namespace {
 
 GBuffer make_images(gpu::PassList& passes, SceneGpu& scene, const scene::View& view, const GBufferRequest& request)
 {
-    const auto image = [&](VkFormat format, const char* name) { return passes.transient({format, view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name}); };
+    const auto image = [&](VkFormat format, const char* name) {
+        return passes.transient({format, view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name});
+    };
     GBuffer g;
     g.depth = image(VK_FORMAT_D32_SFLOAT, "depth");
     g.normal = image(VK_FORMAT_R32G32_UINT, "normal");
@@ -37,7 +39,8 @@ void draw_motion(gpu::PassList& passes, SceneGpu& scene, const GBuffer& g, const
     pass.depth = gpu::DepthTarget{.image = g.depth, .load = gpu::Load::keep, .write = false, .compare = VK_COMPARE_OP_EQUAL};
     pass.streams = {SceneGpu::position_stream(), SceneGpu::previous_stream()};
     pass.draw = [&scene, planes = frustum_planes(view.clip_from_world)](gpu::Encoder& encoder) {
-        scene.draw(encoder, {.sets = draw_opaque | draw_masked, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::previous});
+        scene.draw(
+            encoder, {.sets = draw_opaque | draw_masked, .cull = &planes, .cull_back_faces = true, .second = SceneGpu::Second::previous});
     };
     passes.raster(std::move(pass));
 }

@@ -43,20 +43,19 @@ void Fields::choice(const char* name, int& field, std::vector<std::string> names
     add({name, ParamType::choice, 0, {0, last}, "", help, std::move(names)}, &field);
 }
 
-void Fields::flag(const char* name, int& field, const char* help)
-{
-    add({name, ParamType::flag, 0, {0, 1}, "", help, {}}, &field);
-}
+void Fields::flag(const char* name, int& field, const char* help) { add({name, ParamType::flag, 0, {0, 1}, "", help, {}}, &field); }
 
 void check_tiling(const ParamTable& table)
 {
     size_t expected = 0;
     for (const ParamInfo& f : table.fields) {
-        if (f.offset != expected) throw std::logic_error(fmt::format("parameter '{}' is described out of place: a field before it is missing", f.name));
+        if (f.offset != expected)
+            throw std::logic_error(fmt::format("parameter '{}' is described out of place: a field before it is missing", f.name));
         expected += 4;
     }
     if (expected != table.defaults.size())
-        throw std::logic_error(fmt::format("the description covers {} of {} bytes of the parameters: a field is missing", expected, table.defaults.size()));
+        throw std::logic_error(
+            fmt::format("the description covers {} of {} bytes of the parameters: a field is missing", expected, table.defaults.size()));
 }
 
 ParamValues::ParamValues(ParamTable table)
@@ -106,7 +105,8 @@ void ParamValues::set(std::string_view name, double value)
 {
     const ParamInfo& info = require(table_, name);
     if (!std::isfinite(value) || value < info.range.min || value > info.range.max)
-        base::fail("parameter '{}' takes {} to {}{}{}, not {}", info.name, info.range.min, info.range.max, info.unit.empty() ? "" : " ", info.unit, value);
+        base::fail("parameter '{}' takes {} to {}{}{}, not {}", info.name, info.range.min, info.range.max, info.unit.empty() ? "" : " ",
+            info.unit, value);
     if (info.type == ParamType::real) {
         const float f = float(value);
         memcpy(bytes_.data() + info.offset, &f, 4);
@@ -141,11 +141,15 @@ nlohmann::ordered_json ParamValues::json() const
 {
     nlohmann::ordered_json out = nlohmann::ordered_json::object();
     for (const ParamInfo& f : table_.fields) {
-        if (f.type == ParamType::choice) out[f.name] = text(f);
-        else if (f.type == ParamType::flag) out[f.name] = get(f) != 0;
-        else if (f.type == ParamType::integer) out[f.name] = int(get(f));
+        if (f.type == ParamType::choice)
+            out[f.name] = text(f);
+        else if (f.type == ParamType::flag)
+            out[f.name] = get(f) != 0;
+        else if (f.type == ParamType::integer)
+            out[f.name] = int(get(f));
         // through the shortest text that gives the same float: 0.1, not 0.10000000149
-        else out[f.name] = std::stod(text(f));
+        else
+            out[f.name] = std::stod(text(f));
     }
     return out;
 }
@@ -154,10 +158,14 @@ void ParamValues::set_json(const nlohmann::ordered_json& values)
 {
     if (!values.is_object()) base::fail("parameters are an object of name: value, not {}", values.type_name());
     for (const auto& [name, value] : values.items()) {
-        if (value.is_string()) set(name, std::string_view(value.get_ref<const std::string&>()));
-        else if (value.is_boolean()) set(name, value.get<bool>() ? 1.0 : 0.0);
-        else if (value.is_number()) set(name, value.get<double>());
-        else base::fail("parameter '{}' takes a number, a name or true/false, not {}", name, value.type_name());
+        if (value.is_string())
+            set(name, std::string_view(value.get_ref<const std::string&>()));
+        else if (value.is_boolean())
+            set(name, value.get<bool>() ? 1.0 : 0.0);
+        else if (value.is_number())
+            set(name, value.get<double>());
+        else
+            base::fail("parameter '{}' takes a number, a name or true/false, not {}", name, value.type_name());
     }
 }
 

@@ -71,7 +71,7 @@ template <class Params> ParamTable param_table(void (*describe)(Params&, Fields&
 }
 
 /// A technique without parameters.
-struct NoParams {};
+struct NoParams { };
 inline ParamTable no_params() { return {}; }
 
 /// Values for one table.

@@ -34,7 +34,8 @@ gpu_layout::Material pack(const scene::Material& m)
     out.base_color = m.base_color, out.emissive = m.emissive, out.metallic = m.metallic, out.roughness = m.roughness;
     out.alpha_cutoff = m.alpha_cutoff, out.transmission = m.transmission;
     out.flags = (m.double_sided ? 1u : 0u) | (m.alpha == scene::AlphaMode::mask ? 2u : 0u) | (m.alpha == scene::AlphaMode::blend ? 4u : 0u);
-    const float crossings = std::isfinite(m.attenuation_distance) && m.attenuation_distance > 0.0f ? m.thickness / m.attenuation_distance : 0.0f;
+    const float crossings
+        = std::isfinite(m.attenuation_distance) && m.attenuation_distance > 0.0f ? m.thickness / m.attenuation_distance : 0.0f;
     out.volume_tint = glm::pow(m.attenuation_color, vec3(crossings));
     out.base_color_texture = pack(m.base_color_texture);
     out.metallic_roughness_texture = pack(m.metallic_roughness_texture);
@@ -88,11 +89,18 @@ void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
         s.ranges.push_back({uint32_t(vertices), uint32_t(m.positions.size()), uint32_t(indices), uint32_t(m.indices.size())});
         vertices += m.positions.size(), indices += m.indices.size();
     }
-    if (vertices > 0x7fffffffu || indices > 0xffffffffu) base::fail("the scene '{}' has {} vertices and {} indices, above the 31 and 32 bits of a draw; split it", s.scene->name, vertices, indices);
-    const VkBufferUsageFlags vertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, trace = s.device->info().ray_query || s.device->info().ray_tracing_pipeline ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR : 0;
+    if (vertices > 0x7fffffffu || indices > 0xffffffffu)
+        base::fail("the scene '{}' has {} vertices and {} indices, above the 31 and 32 bits of a draw; split it", s.scene->name, vertices,
+            indices);
+    const VkBufferUsageFlags vertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                             trace = s.device->info().ray_query || s.device->info().ray_tracing_pipeline
+        ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR
+        : 0;
     s.positions = s.device->buffer({std::max<uint64_t>(vertices, 1) * 12, vertex | trace, gpu::Memory::device, "positions"});
-    s.attributes = s.device->buffer({std::max<uint64_t>(vertices, 1) * sizeof(gpu_layout::Attributes), vertex, gpu::Memory::device, "attributes"});
-    s.indices = s.device->buffer({std::max<uint64_t>(indices, 1) * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | trace, gpu::Memory::device, "indices"});
+    s.attributes
+        = s.device->buffer({std::max<uint64_t>(vertices, 1) * sizeof(gpu_layout::Attributes), vertex, gpu::Memory::device, "attributes"});
+    s.indices
+        = s.device->buffer({std::max<uint64_t>(indices, 1) * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | trace, gpu::Memory::device, "indices"});
     if (previous) s.previous = s.device->buffer({std::max<uint64_t>(vertices, 1) * 12, vertex, gpu::Memory::device, "previous positions"});
     std::vector<gpu_layout::Attributes> attributes;
     for (size_t m = 0; m < s.scene->meshes.size(); ++m) {
@@ -100,13 +108,16 @@ void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
         const MeshRange& range = s.ranges[m];
         attributes.resize(mesh.positions.size());
         for (size_t v = 0; v < mesh.positions.size(); ++v)
-            attributes[v] = {encode_normal(mesh.normals[v]), mesh.uvs.empty() ? vec2(0) : mesh.uvs[v], mesh.colors.empty() ? 0xffffffffu : mesh.colors[v]};
+            attributes[v] = {encode_normal(mesh.normals[v]), mesh.uvs.empty() ? vec2(0) : mesh.uvs[v],
+                mesh.colors.empty() ? 0xffffffffu : mesh.colors[v]};
         if (!mesh.positions.empty()) {
             s.device->upload(s.positions, std::as_bytes(std::span(mesh.positions)), uint64_t(range.first_vertex) * 12);
-            s.device->upload(s.attributes, std::as_bytes(std::span(attributes)), uint64_t(range.first_vertex) * sizeof(gpu_layout::Attributes));
+            s.device->upload(
+                s.attributes, std::as_bytes(std::span(attributes)), uint64_t(range.first_vertex) * sizeof(gpu_layout::Attributes));
         }
         if (!mesh.indices.empty()) s.device->upload(s.indices, std::as_bytes(std::span(mesh.indices)), uint64_t(range.first_index) * 4);
-        if (previous && !mesh.positions.empty()) s.device->upload(s.previous, std::as_bytes(std::span(previous->meshes[m].positions)), uint64_t(range.first_vertex) * 12);
+        if (previous && !mesh.positions.empty())
+            s.device->upload(s.previous, std::as_bytes(std::span(previous->meshes[m].positions)), uint64_t(range.first_vertex) * 12);
     }
 }
 
@@ -133,7 +144,9 @@ void upload_instances(SceneGpu::Impl& s, const scene::Scene* previous)
         packed.first_index = range.first_index, packed.first_vertex = range.first_vertex;
         instances.push_back(packed);
         if (previous) before.push_back(pack(previous->instances[i].world_from_object));
-        const DrawSet set = material.alpha == scene::AlphaMode::opaque ? draw_opaque : material.alpha == scene::AlphaMode::mask ? draw_masked : draw_blended;
+        const DrawSet set = material.alpha == scene::AlphaMode::opaque ? draw_opaque
+            : material.alpha == scene::AlphaMode::mask                 ? draw_masked
+                                                                       : draw_blended;
         s.slots.push_back({i, uint32_t(instance.mesh), set, material.double_sided, transformed(mesh.bounds, instance.world_from_object)});
         if (!mesh.indices.empty()) s.sets |= set;
     }

@@ -30,7 +30,8 @@ bool outside(const Bounds& b, const Planes& planes)
 gpu::VertexStream SceneGpu::position_stream() { return {12, {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}}}; }
 gpu::VertexStream SceneGpu::attribute_stream()
 {
-    return {sizeof(gpu_layout::Attributes), {{1, 0, VK_FORMAT_R32_UINT, 0}, {2, 0, VK_FORMAT_R32G32_SFLOAT, 4}, {3, 0, VK_FORMAT_R32_UINT, 12}}};
+    return {sizeof(gpu_layout::Attributes),
+        {{1, 0, VK_FORMAT_R32_UINT, 0}, {2, 0, VK_FORMAT_R32G32_SFLOAT, 4}, {3, 0, VK_FORMAT_R32_UINT, 12}}};
 }
 gpu::VertexStream SceneGpu::previous_stream() { return {12, {{4, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}}}; }
 
@@ -60,7 +61,8 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
             encoder.cull(slot.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         }
         const MeshRange& range = s.ranges[slot.mesh];
-        encoder.draw_indexed(range.index_count, uint32_t(end - first), range.first_index, int32_t(range.first_vertex), order[first] | options.layer << 24);
+        encoder.draw_indexed(
+            range.index_count, uint32_t(end - first), range.first_index, int32_t(range.first_vertex), order[first] | options.layer << 24);
         triangles += uint64_t(range.index_count / 3) * (end - first);
         first = end;
     }
@@ -79,8 +81,9 @@ const gpu::AccelerationStructure& SceneGpu::tlas()
         if (at.set == draw_blended || range.index_count == 0) continue;
         gpu::AccelerationStructure& blas = s.blas[at.mesh];
         if (!blas)
-            blas = s.device->build_blas({s.positions.address() + uint64_t(range.first_vertex) * 12, 12, range.vertex_count, s.indices.address() + uint64_t(range.first_index) * 4, range.index_count / 3,
-                at.set == draw_opaque, s.scene->meshes[at.mesh].name});
+            blas = s.device->build_blas({s.positions.address() + uint64_t(range.first_vertex) * 12, 12, range.vertex_count,
+                s.indices.address() + uint64_t(range.first_index) * 4, range.index_count / 3, at.set == draw_opaque,
+                s.scene->meshes[at.mesh].name});
         gpu::TlasInstance instance{&blas, {}, uint32_t(slot), 0xff, 0};
         const mat4& m = s.scene->instances[at.instance].world_from_object;
         for (int r = 0; r < 3; ++r)

@@ -44,7 +44,8 @@ struct Frame {
     const scene::Light& light;
     SceneGpu& resources;
     GBuffer gbuffer; ///< already drawn
-    gpu::ImageId output; ///< of the technique's kind, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and radiance)
+    gpu::ImageId output; ///< of the technique's kind, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
+                         ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
 };
 
@@ -62,8 +63,7 @@ public:
     void record(gpu::PassList& passes, const Frame& frame, std::span<const std::byte> bytes) final
     {
         Params params{};
-        if constexpr (!std::is_empty_v<Params>)
-            memcpy(&params, bytes.data(), sizeof(Params));
+        if constexpr (!std::is_empty_v<Params>) memcpy(&params, bytes.data(), sizeof(Params));
         record_with(passes, frame, params);
     }
 

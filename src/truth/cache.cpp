@@ -53,10 +53,7 @@ void add_light(base::Hasher& h, const scene::Light& light)
     std::visit([&](const auto& shape) { h.value(shape); }, light.shape);
 }
 
-std::string checksum(std::span<const std::byte> data)
-{
-    return base::Hasher().bytes(data).hex();
-}
+std::string checksum(std::span<const std::byte> data) { return base::Hasher().bytes(data).hex(); }
 
 struct Header {
     char magic[8] = {'G', 'N', 'T', 'R', 'U', 'T', 'H', 0};
@@ -77,10 +74,7 @@ template <class R, class F> void for_arrays(R& r, F f)
     f(r.visibility.variance.values);
 }
 
-fs::path entry(const fs::path& folder, const std::string& key)
-{
-    return folder / (key + std::string(extension));
-}
+fs::path entry(const fs::path& folder, const std::string& key) { return folder / (key + std::string(extension)); }
 
 } // namespace
 

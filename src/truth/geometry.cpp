@@ -50,10 +50,7 @@ float largest_extent(const scene::Mesh& mesh, const std::vector<vec3>& world)
     return std::max(largest.x, std::max(largest.y, largest.z));
 }
 
-bool usable(vec3 p)
-{
-    return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest;
-}
+bool usable(vec3 p) { return std::abs(p.x) < farthest && std::abs(p.y) < farthest && std::abs(p.z) < farthest; }
 
 } // namespace
 

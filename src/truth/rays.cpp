@@ -31,10 +31,7 @@ PixelRays::PixelRays(const scene::View& view)
 
 namespace {
 
-float largest(vec3 v)
-{
-    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
-}
+float largest(vec3 v) { return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))); }
 
 } // namespace
 

@@ -147,10 +147,7 @@ public:
         (void)pixel;
 #endif
     }
-    bool seen(size_t pixel) const
-    {
-        return primary_.primitive[pixel] != no_primitive;
-    }
+    bool seen(size_t pixel) const { return primary_.primitive[pixel] != no_primitive; }
     Receiver at(size_t pixel)
     {
         const uint32_t id = primary_.primitive[pixel];

@@ -155,10 +155,7 @@ Tracer::Tracer(const scene::Scene& scene, size_t flatten_limit)
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
-double Tracer::build_ms() const
-{
-    return impl_->geometry.build_ms();
-}
+double Tracer::build_ms() const { return impl_->geometry.build_ms(); }
 
 Visibility Tracer::visibility(const scene::View& view, const Primary& primary, const scene::Light& light, const Settings& settings) const
 {

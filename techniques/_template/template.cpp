@@ -33,7 +33,8 @@ private:
             .program = &resolve_,
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample, gpu::Sampler::compare_nearest).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), map.constants, params},
+            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
+                map.constants, params},
             .colors = {{frame.output}}});
     }
 
@@ -53,5 +54,7 @@ const gnomon::shadow::TechniqueInfo technique_template_id = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::template_id::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> { return std::make_unique<gnomon::techniques::template_id::Method>(device); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::template_id::Method>(device);
+    },
 };

@@ -13,7 +13,8 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    fields.integer("samples", p.samples, {1, 4096}, "rays", "Rays a pixel towards a light with an area, stratified, rounded up to a square.");
+    fields.integer(
+        "samples", p.samples, {1, 4096}, "rays", "Rays a pixel towards a light with an area, stratified, rounded up to a square.");
 }
 
 std::string unavailable(const gpu::Device& device)
@@ -30,7 +31,8 @@ public:
     {
         constexpr std::string_view miss[] = {"techniques/ray_traced/ray_traced_pipeline.rmiss"};
         constexpr gpu::HitShaders hits[] = {{"", "techniques/ray_traced/ray_traced_pipeline.rahit"}};
-        program_ = query_ ? &device.compute_program("techniques/ray_traced/ray_traced_query.comp") : &device.ray_program("techniques/ray_traced/ray_traced_pipeline.rgen", miss, hits);
+        program_ = query_ ? &device.compute_program("techniques/ray_traced/ray_traced_query.comp")
+                          : &device.ray_program("techniques/ray_traced/ray_traced_pipeline.rgen", miss, hits);
     }
 
 private:
@@ -38,13 +40,25 @@ private:
     {
         SceneGpu& scene = frame.resources;
         const TraceConstants constants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()), params};
-        const std::vector<gpu::Binding> bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {frame.output, gpu::Use::store}, scene.tlas(),
-            {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}, {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load}};
+        const std::vector<gpu::Binding> bindings
+            = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {frame.output, gpu::Use::store},
+                scene.tlas(), {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
+                {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load}};
         const gpu::Threads threads{uint32_t(frame.view.size.width), uint32_t(frame.view.size.height), 1};
         if (query_)
-            passes.compute({.name = "rays", .program = program_, .bindings = bindings, .constants = constants, .threads = threads, .textures = &scene.textures()});
+            passes.compute({.name = "rays",
+                .program = program_,
+                .bindings = bindings,
+                .constants = constants,
+                .threads = threads,
+                .textures = &scene.textures()});
         else
-            passes.trace({.name = "rays", .program = program_, .bindings = bindings, .constants = constants, .threads = threads, .textures = &scene.textures()});
+            passes.trace({.name = "rays",
+                .program = program_,
+                .bindings = bindings,
+                .constants = constants,
+                .threads = threads,
+                .textures = &scene.textures()});
     }
 
     bool query_;
@@ -67,5 +81,7 @@ const gnomon::shadow::TechniqueInfo technique_ray_traced = {
     .exact = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::ray_traced::describe); },
     .unavailable = gnomon::techniques::ray_traced::unavailable,
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> { return std::make_unique<gnomon::techniques::ray_traced::RayTraced>(device); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::ray_traced::RayTraced>(device);
+    },
 };

@@ -15,13 +15,16 @@ using namespace shadow;
 void describe(Params& p, Fields& fields)
 {
     fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
-    fields.choice("fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    fields.choice(
+        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
     fields.choice("depth", p.depth, {"d32", "d16"}, "Depth format: 32-bit float or 16-bit fixed point.");
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block by the hardware instead of taking the nearest texel.");
     fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
-    fields.real("bias_slope", p.bias_slope, {0, 8}, "", "Polygon offset of the casters: times the depth slope, times twice the filter's radius in texels.");
-    fields.real("normal_offset", p.normal_offset, {0, 16}, "texels", "Distance by which a receiver is moved along its normal, times the sine of the light's angle.");
+    fields.real("bias_slope", p.bias_slope, {0, 8}, "",
+        "Polygon offset of the casters: times the depth slope, times twice the filter's radius in texels.");
+    fields.real("normal_offset", p.normal_offset, {0, 16}, "texels",
+        "Distance by which a receiver is moved along its normal, times the sine of the light's angle.");
     fields.choice("cull", p.cull, {"none", "back", "front"}, "Which faces of the casters are left out of the map.");
 }
 
@@ -39,12 +42,19 @@ private:
         // A tap reads its own texel, and one further half when it is bilinear.
         const float radius = 0.5f * float(params.pcf - 1) + (params.bilinear ? 1.0f : 0.5f);
         const parts::LightMap map = parts::draw_light_map(passes, frame,
-            {.size = params.map_size, .fit = parts::Fit(params.fit), .format = parts::DepthFormat(params.depth), .slope_bias = params.bias_slope * 2.0f * radius, .cull = cull[params.cull], .guard_texels = radius + 1.0f});
+            {.size = params.map_size,
+                .fit = parts::Fit(params.fit),
+                .format = parts::DepthFormat(params.depth),
+                .slope_bias = params.bias_slope * 2.0f * radius,
+                .cull = cull[params.cull],
+                .guard_texels = radius + 1.0f});
         passes.fullscreen({.name = "resolve",
             .program = &resolve_,
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
-                gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), map.constants, params},
+                gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest)
+                    .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
+            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
+                map.constants, params},
             .colors = {{frame.output}}});
     }
 
@@ -64,5 +74,7 @@ const gnomon::shadow::TechniqueInfo technique_shadow_map = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::shadow_map::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> { return std::make_unique<gnomon::techniques::shadow_map::ShadowMap>(device); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::shadow_map::ShadowMap>(device);
+    },
 };

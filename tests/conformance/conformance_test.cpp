@@ -4,6 +4,7 @@
 #include "base/image_file.h"
 #include "lab/folder.h"
 #include "lab/render.h"
+#include "scene/load.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,10 @@ protected:
         for (size_t i = errors_before_; i < device().validation_errors().size(); ++i) ADD_FAILURE() << device().validation_errors()[i];
     }
 
-    lab::Stage stage(const std::string& scene, base::Size size) const { return lab::open_stage({scene, {}, "", {light_above(GetParam().kind)}, size}); }
+    lab::Stage stage(const std::string& scene, base::Size size) const
+    {
+        return lab::open_stage({scene, {}, "", {light_above(GetParam().kind)}, size});
+    }
 
     base::Picture draw(const lab::Stage& stage, const lab::Choice& choice) const
     {
@@ -75,7 +79,10 @@ protected:
         return lab::render(device(), scene, stage, choice, {.lit = false}).images.front();
     }
     lab::Choice defaults() const { return {GetParam().info, shadow::ParamValues(GetParam().info->params())}; }
-    bool is_light_image() const { return GetParam().info->output == shadow::Output::visibility || GetParam().info->output == shadow::Output::transmittance; }
+    bool is_light_image() const
+    {
+        return GetParam().info->output == shadow::Output::visibility || GetParam().info->output == shadow::Output::transmittance;
+    }
 
     size_t errors_before_ = 0;
 };
@@ -185,10 +192,12 @@ TEST_P(Conformance, golden)
     const std::string skip = lab::golden_skip(device());
     if (!skip.empty()) GTEST_SKIP() << skip;
     const fs::path file = technique_folder(*GetParam().info) / ("golden." + GetParam().kind + ".png");
-    ASSERT_TRUE(fs::exists(file)) << file << " is missing; look at the picture, then `gnomon bless " << GetParam().info->id << " --because ...`";
+    ASSERT_TRUE(fs::exists(file)) << file << " is missing; look at the picture, then `gnomon bless " << GetParam().info->id
+                                  << " --because ...`";
     const lab::TechniqueScene own = lab::read_technique_scene(technique_folder(*GetParam().info));
     const base::Picture got = lab::golden_image(device(), *GetParam().info, GetParam().kind, technique_folder(*GetParam().info));
-    const lab::GoldenDifference d = lab::compare_golden(got, base::read_png(file, base::Encoding::linear), own.golden_pixels, own.golden_mean);
+    const lab::GoldenDifference d
+        = lab::compare_golden(got, base::read_png(file, base::Encoding::linear), own.golden_pixels, own.golden_mean);
     if (d.same) return;
     const fs::path folder = fs::path("golden-failures");
     base::write_png(folder / (case_name({GetParam(), 0}) + ".png"), got, base::Encoding::linear);
@@ -197,7 +206,7 @@ TEST_P(Conformance, golden)
 
 INSTANTIATE_TEST_SUITE_P(Techniques, Conformance, testing::ValuesIn(cases()), case_name);
 
-class Promise : public testing::TestWithParam<const shadow::TechniqueInfo*> {};
+class Promise : public testing::TestWithParam<const shadow::TechniqueInfo*> { };
 
 TEST_P(Promise, holds_against_truth)
 {
@@ -206,17 +215,52 @@ TEST_P(Promise, holds_against_truth)
     if (!reason.empty()) GTEST_SKIP() << info.id << ": " << reason;
     const size_t before = device().validation_errors().size();
     const lab::PromiseReport report = lab::check_promises(device(), info, technique_folder(info));
-    for (const lab::BrokenPromise& b : report.broken) ADD_FAILURE() << info.id << " under a " << b.kind << " light: " << b.metric << " is " << b.measured << ", promised at most " << b.bound;
+    for (const lab::BrokenPromise& b : report.broken)
+        ADD_FAILURE() << info.id << " under a " << b.kind << " light: " << b.metric << " is " << b.measured << ", promised at most "
+                      << b.bound;
     for (const lab::Run& run : report.runs)
         for (const auto& [metric, value] : run.metrics) RecordProperty(run.light + "." + metric, std::to_string(value));
     EXPECT_EQ(device().validation_errors().size(), before);
+}
+
+/// Opaque scenes: the built-in ones, and the shared ones where they are.
+std::vector<std::string> opaque_scenes()
+{
+    std::vector<std::string> out;
+    for (const scene::Builtin& b : scene::builtins())
+        if (b.opaque) out.emplace_back(b.name);
+    const char* shared = std::getenv("GNOMON_SHARED");
+    const fs::path folder = fs::path(shared ? shared : lab::project_root() / ".." / "shared") / "scenes";
+    for (const char* name : {"shadow_columns.glb", "stanford_group.glb", "cesium_man.glb"})
+        if (fs::exists(folder / name)) out.push_back((folder / name).string());
+    return out;
+}
+
+TEST_P(Promise, exact_methods_are_right_outside_the_band)
+{
+    const shadow::TechniqueInfo& info = *GetParam();
+    const std::string reason = info.unavailable ? info.unavailable(device()) : "";
+    if (!reason.empty()) GTEST_SKIP() << info.id << ": " << reason;
+    if (!info.exact || info.output != shadow::Output::visibility) GTEST_SKIP() << info.id << " is not an exact method for visibility";
+    for (const std::string& name : opaque_scenes()) {
+        const lab::Stage s = lab::open_stage({name, {}, "", {"directional,elevation=40,azimuth=120,angle=0"}, {240, 180}});
+        shadow::SceneGpu scene(device(), s.scene);
+        const truth::Reference truth = truth::reference(s.scene, s.view, s.lights.front(), {.samples = 1});
+        const lab::Rendered rendered
+            = lab::render(device(), scene, s, {&info, shadow::ParamValues(info.params())}, {.lit = false, .aovs = lab::scored_aovs});
+        lab::Run run;
+        lab::score(s, s.lights.front(), truth, rendered, {}, run);
+        EXPECT_EQ(run.metrics.at("wrong_outside_band"), 0.0) << name;
+        EXPECT_LT(double(run.excluded_pixels), 0.01 * double(run.scored_pixels + run.excluded_pixels)) << name;
+    }
 }
 
 TEST_P(Promise, refuses_lights_it_does_not_claim)
 {
     for (int k = 0; k < scene::light_kind_count; ++k) {
         scene::Light light;
-        const scene::LightShape shapes[] = {scene::DirectionalLight{}, scene::SpotLight{}, scene::PointLight{}, scene::RectLight{}, scene::DiskLight{}};
+        const scene::LightShape shapes[]
+            = {scene::DirectionalLight{}, scene::SpotLight{}, scene::PointLight{}, scene::RectLight{}, scene::DiskLight{}};
         light.shape = shapes[k];
         if (GetParam()->lights & (1u << k)) continue;
         EXPECT_NE(shadow::refusal(*GetParam(), device(), light).find(GetParam()->id), std::string::npos);
@@ -228,7 +272,8 @@ TEST_P(Promise, page_has_its_headings)
     const fs::path folder = technique_folder(*GetParam());
     std::ifstream file(folder / "README.md");
     const std::string page((std::istreambuf_iterator<char>(file)), {});
-    for (const char* heading : {"## In one sentence", "## Picture", "## How it works", "## Parameters", "## What it costs", "## How wrong it is", "## Where it fails", "## Differs from the paper", "## References"})
+    for (const char* heading : {"## In one sentence", "## Picture", "## How it works", "## Parameters", "## What it costs",
+             "## How wrong it is", "## Where it fails", "## Differs from the paper", "## References"})
         EXPECT_NE(page.find(heading), std::string::npos) << folder << " lacks " << heading;
 }
 

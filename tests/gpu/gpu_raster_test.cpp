@@ -14,15 +14,9 @@ struct Color {
 constexpr Color red{1, 0, 0, 1}, green{0, 1, 0, 1};
 
 /// Counter-clockwise as seen with y up; the apex is on top.
-std::vector<Point> triangle(float z)
-{
-    return {{-1, -1, z}, {1, -1, z}, {0, 1, z}};
-}
+std::vector<Point> triangle(float z) { return {{-1, -1, z}, {1, -1, z}, {0, 1, z}}; }
 
-VertexStream points()
-{
-    return {sizeof(Point), {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}}};
-}
+VertexStream points() { return {sizeof(Point), {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}}}; }
 
 } // namespace
 

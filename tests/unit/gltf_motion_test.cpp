@@ -19,15 +19,9 @@ GltfBuilder animated(const char* path, const char* interpolation, int (*output)(
     return b;
 }
 
-vec3 origin_at(const GltfBuilder& b, double time)
-{
-    return vec3(b.load({.time = time}).instances.at(0).world_from_object[3]);
-}
+vec3 origin_at(const GltfBuilder& b, double time) { return vec3(b.load({.time = time}).instances.at(0).world_from_object[3]); }
 
-int two_places(GltfBuilder& b)
-{
-    return b.vec3s({{1, 0, 0}, {3, 4, 0}});
-}
+int two_places(GltfBuilder& b) { return b.vec3s({{1, 0, 0}, {3, 4, 0}}); }
 
 TEST(gltf_motion, linear_translation_repeats)
 {

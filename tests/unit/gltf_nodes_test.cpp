@@ -6,10 +6,7 @@ namespace {
 
 using json = nlohmann::json;
 
-vec3 placed(const Scene& scene, size_t instance, vec3 p)
-{
-    return vec3(scene.instances[instance].world_from_object * vec4(p, 1.0f));
-}
+vec3 placed(const Scene& scene, size_t instance, vec3 p) { return vec3(scene.instances[instance].world_from_object * vec4(p, 1.0f)); }
 
 TEST(gltf_nodes, hierarchy_of_trs_and_matrix)
 {

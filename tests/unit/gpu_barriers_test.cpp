@@ -9,10 +9,7 @@ namespace gnomon::gpu {
 
 namespace {
 
-Access of(Use use, PassKind kind = PassKind::compute, bool depth = false)
-{
-    return access_of(use, kind, depth);
-}
+Access of(Use use, PassKind kind = PassKind::compute, bool depth = false) { return access_of(use, kind, depth); }
 
 ImageState made(uint32_t layers = 1, uint32_t mips = 1)
 {
@@ -22,10 +19,7 @@ ImageState made(uint32_t layers = 1, uint32_t mips = 1)
     return s;
 }
 
-std::vector<ImageBarrier> pass(std::vector<ImageUse> uses, std::vector<ImageState>& states)
-{
-    return plan_images("pass", uses, states);
-}
+std::vector<ImageBarrier> pass(std::vector<ImageUse> uses, std::vector<ImageState>& states) { return plan_images("pass", uses, states); }
 
 constexpr VkPipelineStageFlags2 compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 

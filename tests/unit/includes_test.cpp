@@ -58,10 +58,7 @@ std::string rule_of(const std::string& folder)
     return folder;
 }
 
-bool is_glsl(const fs::path& file)
-{
-    return file.extension() == ".glsl";
-}
+bool is_glsl(const fs::path& file) { return file.extension() == ".glsl"; }
 
 /// The included file, relative to the root: beside the includer, else from the root (-I .), else from src/ (-I src).
 fs::path resolve(const fs::path& includer, const std::string& name)

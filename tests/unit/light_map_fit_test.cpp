@@ -158,10 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, LightMapFitScene,
     testing::Values("balls", "contact", "citadel", "colonnade", "terrain", "tilted_planes", "duelling_frusta", "closed_box"),
     [](const testing::TestParamInfo<const char*>& p) { return std::string(p.param); });
 
-scene::Scene balls()
-{
-    return builtin("balls");
-}
+scene::Scene balls() { return builtin("balls"); }
 
 TEST(LightMapFit, WideSpotsAndAreaLightsTakeACube)
 {

@@ -30,10 +30,7 @@ Picture half(float edge, float soft = 0.0f, int channels = 1)
     return p;
 }
 
-std::vector<uint8_t> all()
-{
-    return std::vector<uint8_t>(size.area(), 1);
-}
+std::vector<uint8_t> all() { return std::vector<uint8_t>(size.area(), 1); }
 
 std::map<std::string, double> measure(const Picture& test, const Picture& truth, bool hard, const std::vector<uint8_t>& mask = all())
 {

@@ -29,10 +29,7 @@ void describe(Params& p, Fields& fields)
     fields.flag("smooth", p.smooth, "Whether.");
 }
 
-ParamValues values()
-{
-    return ParamValues(param_table(describe));
-}
+ParamValues values() { return ParamValues(param_table(describe)); }
 
 std::string message(const std::function<void()>& act)
 {

@@ -28,10 +28,7 @@ std::string content_hash(const Scene& scene)
     return h.hex();
 }
 
-bool finite(vec3 v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Every edge is walked as often one way as the other: closed, and wound consistently.
 bool watertight(const Mesh& mesh)
@@ -87,10 +84,7 @@ TEST_P(SceneBuiltin, IsSound)
     expect_sound(scene);
 }
 
-TEST_P(SceneBuiltin, IsTheSameEachTime)
-{
-    EXPECT_EQ(content_hash(GetParam().make(1.0)), content_hash(GetParam().make(1.0)));
-}
+TEST_P(SceneBuiltin, IsTheSameEachTime) { EXPECT_EQ(content_hash(GetParam().make(1.0)), content_hash(GetParam().make(1.0))); }
 
 TEST_P(SceneBuiltin, HasCamerasAndLightsWithNamesOfTheirOwn)
 {

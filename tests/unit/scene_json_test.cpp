@@ -40,10 +40,7 @@ protected:
     fs::path folder_;
 };
 
-void expect_near(vec3 a, vec3 b, const std::string& what)
-{
-    EXPECT_LT(glm::length(a - b), 1e-5f * (1.0f + glm::length(b))) << what;
-}
+void expect_near(vec3 a, vec3 b, const std::string& what) { EXPECT_LT(glm::length(a - b), 1e-5f * (1.0f + glm::length(b))) << what; }
 
 void expect_same(const Light& a, const Light& b)
 {

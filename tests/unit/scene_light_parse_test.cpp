@@ -24,10 +24,7 @@ Light parse(std::string_view text)
     return parse_light(text, {sun, panel}, unit_bounds());
 }
 
-void expect_near(vec3 a, vec3 b)
-{
-    EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z;
-}
+void expect_near(vec3 a, vec3 b) { EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z; }
 
 TEST(SceneLightParse, SunAngles)
 {

@@ -23,10 +23,7 @@ vec3 project(const View& view, vec3 p)
     return vec3(clip) / clip.w;
 }
 
-vec2 to_pixel(const View& view, vec3 ndc)
-{
-    return (vec2(ndc) * 0.5f + 0.5f) * vec2(float(view.size.width), float(view.size.height));
-}
+vec2 to_pixel(const View& view, vec3 ndc) { return (vec2(ndc) * 0.5f + 0.5f) * vec2(float(view.size.width), float(view.size.height)); }
 
 Camera camera_at(vec3 eye, vec3 target)
 {

@@ -41,15 +41,9 @@ void compare_row(const scene::Scene& s, const scene::Light& light, float x0, flo
     EXPECT_NEAR(bias, 0.0, tolerance / std::sqrt(double(points.size())) * 1.5);
 }
 
-scene::DiskLight disk_light(float radius)
-{
-    return {vec3(0.2f, 4.0f, 0.1f), vec3(0, -1, 0), radius};
-}
+scene::DiskLight disk_light(float radius) { return {vec3(0.2f, 4.0f, 0.1f), vec3(0, -1, 0), radius}; }
 // cross(half_u, half_v) = -y
-scene::RectLight rect_light()
-{
-    return {vec3(0.1f, 4.0f, 0.2f), vec3(0.6f, 0, 0), vec3(0, 0, 0.4f)};
-}
+scene::RectLight rect_light() { return {vec3(0.1f, 4.0f, 0.2f), vec3(0.6f, 0, 0), vec3(0, 0, 0.4f)}; }
 
 } // namespace
 

@@ -24,10 +24,7 @@ double mean(const base::Picture& p)
     return sum / double(p.values.size());
 }
 
-size_t background(const truth::Primary& p)
-{
-    return size_t(std::count(p.primitive.begin(), p.primitive.end(), truth::no_primitive));
-}
+size_t background(const truth::Primary& p) { return size_t(std::count(p.primitive.begin(), p.primitive.end(), truth::no_primitive)); }
 
 scene::Scene closed_box(bool double_sided)
 {

@@ -107,17 +107,8 @@ std::vector<vec2> arc(vec2 centre, float radius, float from, float to, int count
     return points;
 }
 
-mat4 at(vec3 p)
-{
-    return glm::translate(mat4(1.0f), p);
-}
-mat4 turned(float degrees, vec3 axis)
-{
-    return glm::rotate(mat4(1.0f), glm::radians(degrees), axis);
-}
-mat4 scaled(vec3 s)
-{
-    return glm::scale(mat4(1.0f), s);
-}
+mat4 at(vec3 p) { return glm::translate(mat4(1.0f), p); }
+mat4 turned(float degrees, vec3 axis) { return glm::rotate(mat4(1.0f), glm::radians(degrees), axis); }
+mat4 scaled(vec3 s) { return glm::scale(mat4(1.0f), s); }
 
 } // namespace gnomon::scene::generators

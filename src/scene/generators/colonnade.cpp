@@ -14,10 +14,7 @@ constexpr float bay = 4.0f, nave = 4.0f, aisle = 7.6f; // half widths
 constexpr float capital = 4.2f, gallery = 7.0f, spring = 8.4f, crown = 12.6f;
 constexpr float half_length = 0.5f * bay * bays;
 
-float bay_z(int i)
-{
-    return bay * (float(i) - 0.5f * (bays - 1));
-}
+float bay_z(int i) { return bay * (float(i) - 0.5f * (bays - 1)); }
 
 struct Materials {
     int wall, dressed, vault, floor, wood, metal, cloth;

@@ -10,10 +10,7 @@ vec3 any_side(vec3 direction)
     return glm::normalize(glm::cross(direction, std::abs(direction.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0)));
 }
 
-vec3 turned_about(vec3 v, vec3 axis, float angle)
-{
-    return vec3(glm::rotate(mat4(1.0f), angle, axis) * vec4(v, 0.0f));
-}
+vec3 turned_about(vec3 v, vec3 axis, float angle) { return vec3(glm::rotate(mat4(1.0f), angle, axis) * vec4(v, 0.0f)); }
 
 class Grower {
 public:

@@ -7,10 +7,7 @@ namespace gnomon::scene::generators {
 
 namespace {
 
-uint32_t wrapped(int i, int period)
-{
-    return uint32_t(((i % period) + period) % period);
-}
+uint32_t wrapped(int i, int period) { return uint32_t(((i % period) + period) % period); }
 
 } // namespace
 

@@ -15,21 +15,12 @@ constexpr uint32_t scramble(uint32_t x)
     x = (x ^ (x >> 15)) * 0x846ca68bu;
     return x ^ (x >> 16);
 }
-constexpr uint32_t scramble(uint32_t a, uint32_t b)
-{
-    return scramble(a ^ scramble(b + 0x9e3779b9u));
-}
+constexpr uint32_t scramble(uint32_t a, uint32_t b) { return scramble(a ^ scramble(b + 0x9e3779b9u)); }
 
-constexpr float unit_float(uint32_t bits)
-{
-    return float(bits >> 8) * (1.0f / 16777216.0f);
-}
+constexpr float unit_float(uint32_t bits) { return float(bits >> 8) * (1.0f / 16777216.0f); }
 
 /// In [0, 1), by place.
-constexpr float hash01(uint32_t a, uint32_t b = 0, uint32_t c = 0)
-{
-    return unit_float(scramble(a, scramble(b, c)));
-}
+constexpr float hash01(uint32_t a, uint32_t b = 0, uint32_t c = 0) { return unit_float(scramble(a, scramble(b, c))); }
 
 /// A stream of numbers in [0, 1).
 class Random {

@@ -16,10 +16,7 @@ vec3 on_circle(float u)
 }
 
 /// A unit vector of a bevel, step i of k from face normal `a` to `b`. From integers, so that a corner's rim is its edges' to the bit.
-vec3 between(vec3 a, vec3 b, int i, int k)
-{
-    return glm::normalize(float(k - i) * a + float(i) * b);
-}
+vec3 between(vec3 a, vec3 b, int i, int k) { return glm::normalize(float(k - i) * a + float(i) * b); }
 
 } // namespace
 

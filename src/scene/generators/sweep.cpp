@@ -13,10 +13,7 @@ vec3 tangent_at(const std::vector<vec3>& path, size_t i)
     return glm::normalize(after - before);
 }
 
-float cross2(vec2 a, vec2 b)
-{
-    return a.x * b.y - a.y * b.x;
-}
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Ear clipping: triangles as index triples of a simple counter-clockwise polygon.
 std::vector<std::array<int, 3>> triangulated(const std::vector<vec2>& polygon)

@@ -53,10 +53,7 @@ void add_land(Stage& stage, int material)
     stage.add("land", std::move(b));
 }
 
-mat4 on_land(float x, float z, float sink = 0.0f)
-{
-    return at({x, land(x, z) - sink, z});
-}
+mat4 on_land(float x, float z, float sink = 0.0f) { return at({x, land(x, z) - sink, z}); }
 
 std::vector<int> add_hut(Stage& stage, int stone, int wood, int thatch, int dark)
 {

@@ -9,10 +9,7 @@ namespace gnomon::scene::generators {
 
 namespace {
 
-float fraction(float x)
-{
-    return x - std::floor(x);
-}
+float fraction(float x) { return x - std::floor(x); }
 float smooth_step(float low, float high, float x)
 {
     const float t = glm::clamp((x - low) / (high - low), 0.0f, 1.0f);

@@ -23,10 +23,7 @@ vec2 in_leaf(const Leaf& leaf, vec2 p)
     return vec2((d.x * axis.y - d.y * axis.x) / leaf.width, glm::dot(d, axis) / length);
 }
 
-float leaf_outline(float y)
-{
-    return y <= 0.0f || y >= 1.0f ? 0.0f : std::pow(std::sin(pi * std::pow(y, 0.75f)), 0.8f);
-}
+float leaf_outline(float y) { return y <= 0.0f || y >= 1.0f ? 0.0f : std::pow(std::sin(pi * std::pow(y, 0.75f)), 0.8f); }
 
 } // namespace
 

@@ -27,7 +27,8 @@ Polygon clip(const Polygon& in, vec4 plane)
 /// The six faces of a hexahedron whose corner i has x high for i & 1, y for i & 2, z for i & 4.
 std::array<Polygon, 6> faces(const std::array<vec3, 8>& c)
 {
-    return {Polygon{c[0], c[2], c[6], c[4]}, {c[1], c[3], c[7], c[5]}, {c[0], c[1], c[5], c[4]}, {c[2], c[3], c[7], c[6]}, {c[0], c[1], c[3], c[2]}, {c[4], c[5], c[7], c[6]}};
+    return {Polygon{c[0], c[2], c[6], c[4]}, {c[1], c[3], c[7], c[5]}, {c[0], c[1], c[5], c[4]}, {c[2], c[3], c[7], c[6]},
+        {c[0], c[1], c[3], c[2]}, {c[4], c[5], c[7], c[6]}};
 }
 
 std::array<vec3, 8> box_corners(const Bounds& b)
@@ -55,7 +56,8 @@ std::array<vec3, 8> frustum_corners(const scene::View& view, const Bounds& box)
 
 Planes box_planes(const Bounds& b)
 {
-    return {vec4(1, 0, 0, -b.min.x), vec4(-1, 0, 0, b.max.x), vec4(0, 1, 0, -b.min.y), vec4(0, -1, 0, b.max.y), vec4(0, 0, 1, -b.min.z), vec4(0, 0, -1, b.max.z)};
+    return {vec4(1, 0, 0, -b.min.x), vec4(-1, 0, 0, b.max.x), vec4(0, 1, 0, -b.min.y), vec4(0, -1, 0, b.max.y), vec4(0, 0, 1, -b.min.z),
+        vec4(0, 0, -1, b.max.z)};
 }
 
 } // namespace

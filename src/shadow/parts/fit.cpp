@@ -43,7 +43,8 @@ Bounds in_axes(const std::vector<vec3>& points, const mat4& axes)
 shaders::LightMapLayer orthographic_layer(const mat4& axes, const Bounds& receivers, const Bounds& casters, int size)
 {
     // one texel of rim, so that the outermost receivers still have neighbours to filter
-    const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * float(size) / float(std::max(size - 4, 1));
+    const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * float(size)
+        / float(std::max(size - 4, 1));
     const vec3 centre = receivers.centre();
     const float slack = 1e-3f * std::max(casters.max.z - casters.min.z, 1e-3f);
     shaders::LightMapLayer layer{};
@@ -86,7 +87,8 @@ void depth_range(const Bounds& bounds, vec3 position, float& near, float& far)
     near = std::max(0.5f * glm::length(nearest - position), 2e-4f * far);
 }
 
-void fit_directional(shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
+void fit_directional(
+    shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
 {
     const mat4 axes = light_axes(bounds.centre(), direction, vec3(0, 1, 0));
     const Bounds casters = in_axes(corners(bounds), axes);
@@ -115,7 +117,8 @@ void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const
 
 } // namespace
 
-shaders::LightMap fit_light_map(const scene::Scene&, const Bounds& bounds, const scene::View& view, const scene::Light& light, const LightMapSettings& settings)
+shaders::LightMap fit_light_map(
+    const scene::Scene&, const Bounds& bounds, const scene::View& view, const scene::Light& light, const LightMapSettings& settings)
 {
     shaders::LightMap map{};
     map.size = float(settings.size);
@@ -127,7 +130,8 @@ shaders::LightMap fit_light_map(const scene::Scene&, const Bounds& bounds, const
         depth_range(bounds, spot->position, near, far);
         map.layer_count = 1, map.centre = spot->position;
         const float rim = float(settings.size) / std::max(float(settings.size) - 4.0f, 1.0f);
-        map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)), std::tan(spot->outer_angle) * rim, near, far, settings.size);
+        map.layers[0] = perspective_layer(
+            light_axes(spot->position, spot->direction, vec3(0, 1, 0)), std::tan(spot->outer_angle) * rim, near, far, settings.size);
     } else if (spot) {
         fit_cube(map, bounds, spot->position, settings);
     } else if (const auto* point = std::get_if<scene::PointLight>(&light.shape)) {

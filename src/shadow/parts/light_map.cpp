@@ -38,7 +38,8 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
 
     gpu::Device& device = scene.device();
     const gpu::Program& opaque = device.raster_program("src/shadow/parts/light_depth.vert", "");
-    const gpu::Program& masked = device.raster_program("src/shadow/parts/light_depth_masked.vert", "src/shadow/parts/light_depth_masked.frag");
+    const gpu::Program& masked
+        = device.raster_program("src/shadow/parts/light_depth_masked.vert", "src/shadow/parts/light_depth_masked.frag");
 
     gpu::RasterPass pass;
     pass.name = "light map";
