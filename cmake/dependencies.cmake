@@ -3,7 +3,6 @@
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(glm REQUIRED)
-find_package(TinyGLTF CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)
@@ -27,6 +26,5 @@ endfunction()
 
 gnomon_imported(stb stb_image.h SUFFIXES stb) # headers only: the implementation is compiled once, in base
 gnomon_imported(tinyexr tinyexr.h LIBRARIES tinyexr)
-gnomon_imported(tinygltf tiny_gltf.h LIBRARIES tinygltf)
 gnomon_imported(volk volk.h DEPENDS Vulkan::Headers ${CMAKE_DL_LIBS}) # header only: loads Vulkan at run time, links nothing
 gnomon_imported(spirv_cross spirv_cross_c.h SUFFIXES spirv_cross LIBRARIES spirv-cross-c-shared)

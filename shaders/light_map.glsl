@@ -14,7 +14,7 @@ struct MapPoint {
     bool inside; // in front of the layer's eye and within its rim
 };
 
-// Cube faces in the order +x -x +y -y +z -z: the major axis of p - centre (B2.5a).
+// Cube faces in the order +x -x +y -y +z -z: the major axis of p - centre.
 int select_cube_layer(vec3 centre, vec3 p_world)
 {
     const vec3 d = p_world - centre, a = abs(d);

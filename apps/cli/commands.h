@@ -71,7 +71,8 @@ struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques
     std::string because;
-    bool check = false;
+    bool check = false; ///< docs
+    bool scenes = false; ///< picture
 };
 int new_technique(const Folder&);
 int picture(const Folder&);

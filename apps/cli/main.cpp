@@ -135,6 +135,7 @@ int run(int argc, char** argv)
     CLI::App* new_app = app.add_subcommand("new", "Start a technique: copies the template to techniques/ID");
     new_app->add_option("id", fresh.ids, "Its id: lower-case letters, digits, underscores")->required()->expected(1);
     CLI::App* picture_app = app.add_subcommand("picture", "Make techniques' pictures and measurements");
+    picture_app->add_flag("--scenes", picture.scenes, "Make the pictures of the built-in scenes instead");
     CLI::App* docs_app = app.add_subcommand("docs", "Rewrite the generated parts of the pages");
     docs_app->add_flag("--check", docs.check, "Change nothing; fail where a page is stale");
     CLI::App* bless_app = app.add_subcommand("bless", "Accept techniques' present pictures as goldens");

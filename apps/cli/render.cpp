@@ -66,7 +66,9 @@ int render(const Render& options)
         const size_t equals = item.find('=');
         choice.params.set(item.substr(0, equals), std::string_view(item).substr(equals + 1));
     }
-    const lab::Stage stage = lab::open_stage(stage_options(options.picture));
+    lab::StageOptions stage_choice = stage_options(options.picture);
+    stage_choice.kinds = choice.info->lights;
+    const lab::Stage stage = lab::open_stage(stage_choice);
     for (const std::string& warning : stage.scene.warnings) fmt::print(stderr, "gnomon: warning: {}\n", warning);
     const fs::path file = options.output.empty()
         ? fs::path("out") / (fs::path(options.picture.scene).stem().string() + "." + std::string(choice.info->id) + ".png")

@@ -29,12 +29,21 @@ std::string file_name(std::string text)
     return text;
 }
 
+/// Where no light is named, one that all techniques take, if there is one.
+StageOptions with_common_lights(const CompareOptions& options)
+{
+    StageOptions out = options.stage;
+    for (const std::string& text : options.techniques) out.kinds &= parse_choice(text).info->lights;
+    if (out.kinds == 0) out.kinds = ~0u;
+    return out;
+}
+
 class Comparer {
 public:
     Comparer(gpu::Device& device, const CompareOptions& options)
         : device_(device)
         , options_(options)
-        , stage_(open_stage(options.stage))
+        , stage_(open_stage(with_common_lights(options)))
         , scene_(device, stage_.scene)
     {
         for (const std::string& text : options.techniques) choices_.push_back(parse_choice(text));

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "scene/load.h"
 
 #include <nlohmann/json.hpp>
 
@@ -90,9 +91,24 @@ std::string overview_table()
     return out;
 }
 
+/// The built-in scenes, four in a row.
+std::string scene_grid(const fs::path& root)
+{
+    std::string row, names, out = "| | | | |\n| --- | --- | --- | --- |\n";
+    int column = 0;
+    for (const scene::Builtin& builtin : scene::builtins()) {
+        const fs::path picture = fs::path("docs") / "pictures" / (std::string(builtin.name) + ".png");
+        if (!fs::exists(root / picture)) continue;
+        row += fmt::format("| ![{}]({}) ", builtin.name, picture.generic_string());
+        names += fmt::format("| `{}` ", builtin.name);
+        if (++column % 4 == 0) out += row + "|\n" + names + "|\n", row.clear(), names.clear();
+    }
+    return column == 0 ? "" : out + (row.empty() ? "" : row + "|\n" + names + "|\n") + "\n";
+}
+
 std::string gallery(const fs::path& root)
 {
-    std::string out;
+    std::string out = scene_grid(root);
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
         const fs::path picture = fs::path("techniques") / info->id / (std::string(info->id) + ".png");
         if (fs::exists(root / picture))

@@ -76,6 +76,9 @@ std::string bless(gpu::Device&, const shadow::TechniqueInfo&, const std::filesys
 /// Makes techniques/<id>/<id>.png: the technique beside the truth.
 std::filesystem::path make_picture(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder);
 
+/// docs/pictures/<scene>.png of every built-in scene under its first light: ray_traced, or shadow_map where the device has no rays.
+std::vector<std::filesystem::path> make_scene_pictures(gpu::Device&, const std::filesystem::path& root);
+
 /// Rewrites the generated blocks (between `<!-- generated:NAME -->` and `<!-- /generated -->`) of the technique pages, of
 /// techniques/README.md and of the README's gallery; with `check`, writes nothing and returns the files that are stale. Parameter
 /// tables come from the code; cost and error from techniques/<id>/results.json (made by `gnomon picture`).

@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "base/progress.h"
 #include "metrics/metrics.h"
+#include "scene/load.h"
 
 #include <nlohmann/json.hpp>
 
@@ -74,6 +76,24 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
     const fs::path file = folder / (std::string(info.id) + ".png");
     base::write_png(file, beside(panels), base::Encoding::srgb);
     return file;
+}
+
+std::vector<fs::path> make_scene_pictures(gpu::Device& device, const fs::path& root)
+{
+    const bool ray_traced = shadow::technique("ray_traced").unavailable(device).empty();
+    std::vector<fs::path> files;
+    base::Progress progress("scenes", scene::builtins().size());
+    for (const scene::Builtin& builtin : scene::builtins()) {
+        StageOptions options{.scene = std::string(builtin.name), .size = {320, 180}};
+        if (!ray_traced) options.kinds = shadow::technique("shadow_map").lights;
+        const Stage stage = open_stage(options);
+        shadow::SceneGpu scene(device, stage.scene);
+        const Rendered rendered = render(device, scene, stage, parse_choice(ray_traced ? "ray_traced:samples=4" : "shadow_map:map_size=4096"), {.samples = 9});
+        files.push_back(root / "docs" / "pictures" / (std::string(builtin.name) + ".png"));
+        base::write_png(files.back(), display(rendered.radiance, stage), base::Encoding::srgb);
+        progress.advance();
+    }
+    return files;
 }
 
 } // namespace gnomon::lab

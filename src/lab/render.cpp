@@ -56,7 +56,7 @@ public:
         if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
     }
 
-    gpu::Submitted draw(vec2 jitter, AovCopies* aovs)
+    gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs)
     {
         const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
         gpu::PassList passes(device_);
@@ -67,7 +67,7 @@ public:
             const gpu::ImageId output = passes.import(targets_.images[i]);
             passes.group(std::string(choice_.info->id));
             techniques_[i]->record(
-                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, settings_.frame_index}, choice_.params.bytes());
+                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame}, choice_.params.bytes());
             passes.group("");
             shadowed.push_back({&stage_.lights[i], output});
         }
@@ -162,12 +162,12 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     Renderer renderer(device, scene, stage, choice, settings);
     AovCopies aovs(device, stage.view.size, settings.aovs);
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
-    const gpu::Submitted first = renderer.draw(vec2(0), &aovs);
+    const gpu::Submitted first = renderer.draw(vec2(0), settings.frame_index, &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
     if (settings.repeats <= 1)
         runs.push_back(first.times);
     else
-        for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), nullptr).times);
+        for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
     collect(out, runs, choice.info->id);
     out.technique_bytes = first.group_bytes.count(std::string(choice.info->id)) ? first.group_bytes.at(std::string(choice.info->id)) : 0;
 
@@ -177,7 +177,7 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     out.aovs = aovs.read(device, stage);
     if (settings.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
     for (int s = 0; settings.lit && s < settings.samples; ++s) {
-        if (settings.samples > 1) renderer.draw(vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, nullptr);
+        if (settings.samples > 1) renderer.draw(vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, settings.frame_index * uint32_t(settings.samples) + uint32_t(s), nullptr);
         add_rgb(out.radiance, device.read_back(targets.radiance), 1.0f / float(settings.samples));
     }
     return out;

@@ -28,7 +28,7 @@ struct PassStats {
 };
 
 struct RenderSettings {
-    int samples = 1; ///< supersampling: pictures averaged, jittered by a Halton sequence
+    int samples = 1; ///< supersampling: pictures averaged, jittered by a Halton sequence; each has a frame number of its own
     int repeats = 1; ///< timed repetitions of the first sample, after one warm-up when more than one
     uint32_t frame_index = 0;
     bool lit = true; ///< shade; otherwise only the techniques' images are made

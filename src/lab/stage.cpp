@@ -23,9 +23,9 @@ Stage open_stage(const StageOptions& options)
     else
         stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds);
     for (const std::string& text : options.lights) stage.lights.push_back(scene::parse_light(text, stage.scene.lights, stage.bounds));
-    if (stage.lights.empty())
-        stage.lights.push_back(
-            stage.scene.lights.empty() ? scene::parse_light("sun,elevation=50,azimuth=35", {}, stage.bounds) : stage.scene.lights.front());
+    for (const scene::Light& light : stage.scene.lights)
+        if (stage.lights.empty() && (options.kinds & (1u << unsigned(light.kind())))) stage.lights.push_back(light);
+    if (stage.lights.empty()) stage.lights.push_back(scene::parse_light("directional,elevation=50,azimuth=35,angle=0", {}, stage.bounds));
     stage.view = scene::make_view(stage.camera, options.size, stage.bounds);
     return stage;
 }

@@ -14,8 +14,9 @@ struct StageOptions {
     std::string scene;
     scene::LoadOptions load;
     std::string camera; ///< scene::parse_camera; empty = the scene's first, else fitted
-    std::vector<std::string> lights; ///< scene::parse_light each; empty = the scene's first, else a sun
+    std::vector<std::string> lights; ///< scene::parse_light each; empty = the scene's first of `kinds`, else a sun
     base::Size size{960, 540}; ///< pixels
+    unsigned kinds = ~0u; ///< kinds of light (1 << LightKind) to choose from where none is named
 };
 
 /// A scene with one camera and its lights: everything of a picture but the technique.

@@ -60,7 +60,7 @@ shaders::LightMapLayer orthographic_layer(const mat4& axes, const Bounds& receiv
     return layer;
 }
 
-/// One perspective layer: reversed depth with both planes fitted to the scene (B2.7). `tangent`: of the half angle.
+/// One perspective layer: reversed depth with both planes fitted to the scene. `tangent`: of the half angle.
 shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float near, float far, int size)
 {
     shaders::LightMapLayer layer{};

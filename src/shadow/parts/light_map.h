@@ -15,7 +15,7 @@ struct LightMapSettings {
     int size = 1024; ///< texels a side, each layer
     Fit fit = Fit::view;
     DepthFormat format = DepthFormat::d32;
-    float slope_bias = 0.0f; ///< polygon offset factor, applied by the hardware while drawing (B2.6: factor * max |dz/dx|, |dz/dy|)
+    float slope_bias = 0.0f; ///< polygon offset factor, applied by the hardware while drawing (factor * max |dz/dx|, |dz/dy|)
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     float guard_texels = 1.5f; ///< filter radius that must not run over a cube face's rim: faces are drawn that much wider
 };
@@ -26,7 +26,7 @@ struct LightMap {
 };
 
 /// Which layouts exist for a light: directional -> one orthographic layer; spot up to 120 degrees -> one perspective layer; wider
-/// spots and points -> six cube faces (B2.5a). Rect and disk lights are taken at their centre, as points.
+/// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
 
 /// Draws all opaque and masked casters into the fitted layers: one pass, culled per layer.
