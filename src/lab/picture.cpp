@@ -88,7 +88,8 @@ std::vector<fs::path> make_scene_pictures(gpu::Device& device, const fs::path& r
         if (!ray_traced) options.kinds = shadow::technique("shadow_map").lights;
         const Stage stage = open_stage(options);
         shadow::SceneGpu scene(device, stage.scene);
-        const Rendered rendered = render(device, scene, stage, parse_choice(ray_traced ? "ray_traced:samples=4" : "shadow_map:map_size=4096"), {.samples = 9});
+        const Rendered rendered
+            = render(device, scene, stage, parse_choice(ray_traced ? "ray_traced:samples=4" : "shadow_map:map_size=4096"), {.samples = 9});
         files.push_back(root / "docs" / "pictures" / (std::string(builtin.name) + ".png"));
         base::write_png(files.back(), display(rendered.radiance, stage), base::Encoding::srgb);
         progress.advance();

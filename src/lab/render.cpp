@@ -66,8 +66,7 @@ public:
         for (size_t i = 0; i < stage_.lights.size(); ++i) {
             const gpu::ImageId output = passes.import(targets_.images[i]);
             passes.group(std::string(choice_.info->id));
-            techniques_[i]->record(
-                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame}, choice_.params.bytes());
+            techniques_[i]->record(passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame}, choice_.params.bytes());
             passes.group("");
             shadowed.push_back({&stage_.lights[i], output});
         }
@@ -177,7 +176,9 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     out.aovs = aovs.read(device, stage);
     if (settings.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
     for (int s = 0; settings.lit && s < settings.samples; ++s) {
-        if (settings.samples > 1) renderer.draw(vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, settings.frame_index * uint32_t(settings.samples) + uint32_t(s), nullptr);
+        if (settings.samples > 1)
+            renderer.draw(
+                vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, settings.frame_index * uint32_t(settings.samples) + uint32_t(s), nullptr);
         add_rgb(out.radiance, device.read_back(targets.radiance), 1.0f / float(settings.samples));
     }
     return out;

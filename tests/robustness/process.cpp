@@ -82,16 +82,18 @@ Finished run_gnomon(const std::vector<std::string>& arguments, const fs::path& f
     }
     Finished f;
     int status = 0;
-    while (::waitpid(child, &status, WNOHANG) == 0) {
+    rusage usage{};
+    while (::wait4(child, &status, WNOHANG, &usage) == 0) {
         f.timed_out = elapsed() > options.seconds;
         if (f.timed_out || (options.kill_when && options.kill_when())) {
             ::kill(child, SIGKILL);
-            ::waitpid(child, &status, 0);
+            ::wait4(child, &status, 0, &usage);
             break;
         }
         ::usleep(1000);
     }
     f.seconds = elapsed();
+    f.peak_memory = uint64_t(usage.ru_maxrss) * 1024;
     if (WIFEXITED(status))
         f.code = WEXITSTATUS(status);
     else

@@ -23,6 +23,7 @@ struct Finished {
     int signal = 0;
     bool timed_out = false;
     double seconds = 0;
+    uint64_t peak_memory = 0; ///< bytes resident
     std::string out, err;
 };
 
