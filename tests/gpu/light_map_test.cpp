@@ -50,9 +50,9 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         ASSERT_NEAR(double(r.z), m.z, 1e-5);
         ASSERT_NEAR(double(r.stored), tests::stored_from_depth(layer, m.depth), 1e-5);
         ASSERT_NEAR(double(r.stored), double(r.z), 1e-5);
-        // nearer the light than the receiver, by no more than the format's step and a few units of rounding
+        // nearer the light than the receiver, by no more than the format's step or a hundred-thousandth: else contact shadows float
         ASSERT_GT(r.reference, r.stored);
-        ASSERT_LE(r.reference, std::max(r.stored, 0.0f) * (1.0f + 1e-6f) + map.depth_step * 1.01f);
+        ASSERT_LE(r.reference, std::max(r.stored, 0.0f) * (1.0f + 1e-5f) + map.depth_step * 1.01f);
         ASSERT_NEAR(double(r.linear), m.depth, 2e-5 * double(layer.far));
         ASSERT_NEAR(r.metres, layer.texel_metres * (layer.perspective ? float(m.depth) : 1.0f), 1e-5f * layer.texel_metres * layer.far);
     }
