@@ -15,7 +15,7 @@ PassList::~PassList() = default;
 PassList::PassList(PassList&&) noexcept = default;
 Device& PassList::device() const { return impl_->device; }
 const ImageDesc& PassList::desc(ImageId id) const { return impl_->images.at(id.index).desc; }
-void PassList::group(std::string name) { impl_->prefix = name.empty() ? std::move(name) : name + "/"; }
+void PassList::group(std::string name) { impl_->group = std::move(name); }
 
 ImageId PassList::import(Image& image)
 {
@@ -39,27 +39,27 @@ BufferId PassList::import(Buffer& buffer)
 
 ImageId PassList::transient(const ImageDesc& desc)
 {
-    impl_->images.push_back({nullptr, desc});
+    impl_->images.push_back({nullptr, desc, impl_->group});
     return {uint32_t(impl_->images.size() - 1)};
 }
 
 BufferId PassList::transient(const BufferDesc& desc)
 {
-    impl_->buffers.push_back({nullptr, desc});
+    impl_->buffers.push_back({nullptr, desc, impl_->group});
     return {uint32_t(impl_->buffers.size() - 1)};
 }
 
 void PassList::compute(ComputePass pass)
 {
     check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), false);
-    std::string name = impl_->prefix + pass.name;
+    std::string name = impl_->prefix() + pass.name;
     impl_->passes.push_back({std::move(name), std::move(pass)});
 }
 
 void PassList::trace(RayPass pass)
 {
     check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), false);
-    std::string name = impl_->prefix + pass.name;
+    std::string name = impl_->prefix() + pass.name;
     impl_->passes.push_back({std::move(name), std::move(pass)});
 }
 
@@ -82,7 +82,7 @@ void PassList::raster(RasterPass pass)
     if (pass.depth) attachment(pass.depth->image, true), sized = true;
     if (!sized) throw std::logic_error(fmt::format("pass '{}' has neither attachments nor a size", pass.name));
     if (!pass.draw) throw std::logic_error(fmt::format("pass '{}' has no draw function", pass.name));
-    std::string name = impl_->prefix + pass.name;
+    std::string name = impl_->prefix() + pass.name;
     impl_->passes.push_back({std::move(name), std::move(pass)});
 }
 
@@ -106,7 +106,7 @@ void PassList::copy(ImageId from, ImageId to, const char* name)
     if (a.format != b.format || a.size != b.size || a.layers != b.layers || a.mips != b.mips || a.samples != b.samples)
         throw std::logic_error(
             fmt::format("copy '{}': images '{}' and '{}' differ in format, size, layers, mips or samples", name, a.name, b.name));
-    impl_->passes.push_back({impl_->prefix + name, CopyImage{from, to}});
+    impl_->passes.push_back({impl_->prefix() + name, CopyImage{from, to}});
 }
 
 void PassList::copy(BufferId from, BufferId to, uint64_t bytes, uint64_t from_offset, uint64_t to_offset, const char* name)
@@ -115,19 +115,19 @@ void PassList::copy(BufferId from, BufferId to, uint64_t bytes, uint64_t from_of
     if (from_offset + bytes > a.bytes || to_offset + bytes > b.bytes)
         throw std::logic_error(
             fmt::format("copy '{}': {} bytes do not fit buffers '{}' and '{}' at these offsets", name, bytes, a.name, b.name));
-    impl_->passes.push_back({impl_->prefix + name, CopyBuffer{from, to, bytes, from_offset, to_offset}});
+    impl_->passes.push_back({impl_->prefix() + name, CopyBuffer{from, to, bytes, from_offset, to_offset}});
 }
 
 void PassList::fill(BufferId buffer, uint32_t value, const char* name)
 {
     impl_->buffers.at(buffer.index);
-    impl_->passes.push_back({impl_->prefix + name, FillBuffer{buffer, value}});
+    impl_->passes.push_back({impl_->prefix() + name, FillBuffer{buffer, value}});
 }
 
 void PassList::clear(ImageId image, VkClearColorValue value, const char* name)
 {
     impl_->images.at(image.index);
-    impl_->passes.push_back({impl_->prefix + name, ClearImage{image, value}});
+    impl_->passes.push_back({impl_->prefix() + name, ClearImage{image, value}});
 }
 
 } // namespace gnomon::gpu

@@ -32,6 +32,7 @@ struct Pass {
 template <class Resource, class Desc> struct Listed {
     Resource* imported; ///< null: transient
     Desc desc;
+    std::string group{}; ///< PassList::group in which a transient was made
 };
 
 struct ListData {
@@ -39,7 +40,8 @@ struct ListData {
     std::vector<Listed<Image, ImageDesc>> images;
     std::vector<Listed<Buffer, BufferDesc>> buffers;
     std::vector<Pass> passes;
-    std::string prefix;
+    std::string group;
+    std::string prefix() const { return group.empty() ? "" : group + "/"; }
 };
 struct PassList::Impl : ListData { };
 

@@ -45,12 +45,19 @@ std::vector<PassTime> read_times(Context& c, const std::vector<Pass>& passes)
     return times;
 }
 
-uint64_t transient_bytes(const Submission& s)
+/// Submission::images and buffers hold the list's transients in its order.
+void count_bytes(const ListData& list, const Submission& s, Submitted& out)
 {
-    uint64_t bytes = 0;
-    for (const auto& image : s.images) bytes += image.bytes();
-    for (const auto& buffer : s.buffers) bytes += buffer.desc().bytes;
-    return bytes;
+    const auto add = [&](const std::string& group, uint64_t bytes) {
+        out.transient_bytes += bytes;
+        if (!group.empty()) out.group_bytes[group] += bytes;
+    };
+    size_t next = 0;
+    for (const auto& listed : list.images)
+        if (!listed.imported) add(listed.group, s.images[next++].bytes());
+    next = 0;
+    for (const auto& listed : list.buffers)
+        if (!listed.imported) add(listed.group, s.buffers[next++].desc().bytes);
 }
 
 /// Gives the resources back however the recording ends.
@@ -78,7 +85,7 @@ Submitted Device::submit(PassList&& list)
         recorder.commit();
     });
     result.times = read_times(c, l.passes);
-    result.transient_bytes = transient_bytes(held.submission);
+    count_bytes(l, held.submission, result);
     return result;
 }
 

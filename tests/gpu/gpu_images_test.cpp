@@ -83,13 +83,17 @@ TEST_F(GpuImages, ClearsAndCopies)
     PassList list(device());
     list.clear(list.import(from), {{0.5f, -2.0f, 0, 0}});
     list.copy(list.import(from), list.import(to));
+    list.group("ours");
     const BufferId numbers = list.transient(BufferDesc{64, 0, Memory::device, "numbers"});
+    list.group("");
+    list.transient(BufferDesc{32, 0, Memory::device, "others"});
     Buffer out = storage<uint32_t>("out", 4);
     list.fill(numbers, 7);
     list.copy(numbers, list.import(out), 16);
     const Submitted done = device().submit(std::move(list));
     EXPECT_EQ(done.times.size(), 4u);
-    EXPECT_EQ(done.transient_bytes, 64u);
+    EXPECT_EQ(done.transient_bytes, 96u);
+    EXPECT_EQ(done.group_bytes, (std::map<std::string, uint64_t>{{"ours", 64}}));
     EXPECT_EQ(device().read_back(to, 1).at(7, 3, 1), -2.0f);
     EXPECT_EQ(values<uint32_t>(out), std::vector<uint32_t>(4, 7));
 }
