@@ -31,7 +31,7 @@ void describe(Params& p, Fields& fields)
 class ShadowMap final : public TechniqueWith<Params> {
 public:
     explicit ShadowMap(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag"))
+        : device_(device)
     {
     }
 
@@ -48,8 +48,9 @@ private:
                 .slope_bias = params.bias_slope * 2.0f * radius,
                 .cull = cull[params.cull],
                 .guard_texels = radius + 1.0f});
+        const gpu::SpecConstant pcf[] = {{0, uint32_t(params.pcf)}};
         passes.fullscreen({.name = "resolve",
-            .program = &resolve_,
+            .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", pcf),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest)
                     .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
@@ -58,7 +59,7 @@ private:
             .colors = {{frame.output}}});
     }
 
-    const gpu::Program& resolve_;
+    gpu::Device& device_;
 };
 
 } // namespace

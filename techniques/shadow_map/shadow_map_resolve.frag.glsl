@@ -11,6 +11,9 @@ layout(set = 0, binding = 1) uniform usampler2D normal_image;
 layout(set = 0, binding = 2) uniform sampler2DArrayShadow map_image;
 layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 
+// Known to the compiler, so that the filter's loops are unrolled.
+layout(constant_id = 0) const int pcf = 3;
+
 layout(location = 0) out float visibility;
 
 void main()
@@ -31,5 +34,5 @@ void main()
 
     const MapPoint m = project(layer, p);
     const float z = reference_depth(layer, m.depth - c.params.bias_constant, c.map.depth_step);
-    visibility = box_filter(map_image, index, m.uv * c.map.size, z, c.params.pcf, c.params.bilinear != 0);
+    visibility = box_filter(map_image, index, m.uv * c.map.size, z, pcf, c.params.bilinear != 0);
 }
