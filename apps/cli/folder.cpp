@@ -44,6 +44,7 @@ int new_technique(const Folder& options)
 
 int picture(const Folder& options)
 {
+    const auto techniques = chosen(options.ids);
     const fs::path root = lab::project_root();
     const auto device = open_device(options.common);
     if (options.scenes) {
@@ -51,7 +52,6 @@ int picture(const Folder& options)
         demand_valid(*device);
         return 0;
     }
-    const auto techniques = chosen(options.ids);
     base::Progress progress("pictures", techniques.size());
     std::vector<fs::path> files;
     for (const shadow::TechniqueInfo* info : techniques) {

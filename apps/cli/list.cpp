@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device.h"
 
+#include "base/error.h"
 #include "scene/load.h"
 #include "shadow/technique.h"
 
@@ -54,35 +55,51 @@ Json parameters_json(const shadow::TechniqueInfo& info)
     return out;
 }
 
+/// The devices as JSON, and the one that would be used; without any, why.
+std::unique_ptr<gpu::Device> find_device(const List& options, Json& devices, std::string& why)
+{
+    try {
+        for (const gpu::DeviceInfo& d : gpu::Device::enumerate())
+            devices.push_back({{"name", d.name}, {"driver", d.driver}, {"missing", d.missing}});
+        return open_device(options.common);
+    } catch (const base::Error& e) {
+        // a misspelt --device is an error; no device at all still leaves something to list
+        if (!options.common.device.empty()) throw;
+        why = e.what();
+        return nullptr;
+    }
+}
+
 } // namespace
 
 int list(const List& options)
 {
     if (options.scenes) return list_scenes(options);
     Json devices = Json::array(), all = Json::array();
-    for (const gpu::DeviceInfo& d : gpu::Device::enumerate())
-        devices.push_back({{"name", d.name}, {"driver", d.driver}, {"missing", d.missing}});
-    const auto device = open_device(options.common);
+    std::string why;
+    const auto device = find_device(options, devices, why);
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
-        const std::string reason = info->unavailable ? info->unavailable(*device) : "";
+        const std::string reason = !device ? why : info->unavailable ? info->unavailable(*device) : "";
         all.push_back({{"id", info->id}, {"title", info->title}, {"family", info->family}, {"output", shadow::output_name(info->output)},
             {"lights", lights_text(info->lights)}, {"soft", info->soft}, {"exact", info->exact}, {"unavailable", reason},
             {"parameters", parameters_json(*info)}});
     }
+    const std::string used = device ? device->info().name : "";
     if (options.common.json) {
-        fmt::print("{}\n", Json{{"device", device->info().name}, {"devices", devices}, {"techniques", all}}.dump(1));
+        fmt::print("{}\n", Json{{"device", used}, {"devices", devices}, {"techniques", all}}.dump(1));
         return 0;
     }
+    if (!device) fmt::print("no device: {}\n", why);
     for (const Json& d : devices) {
         const std::string name = d["name"], missing = d["missing"];
         fmt::print("device: {}, {}{}\n", name, std::string(d["driver"]),
-            missing.empty() ? (name == device->info().name ? "  <- used" : "") : "  (not usable, lacks " + missing + ")");
+            missing.empty() ? (name == used ? "  <- used" : "") : "  (not usable, lacks " + missing + ")");
     }
     fmt::print("\n{:<22} {:<14} {:<26} {}\n", "technique", "output", "lights", "title");
     for (const Json& t : all) {
         const std::string reason = t["unavailable"];
         fmt::print("{:<22} {:<14} {:<26} {}{}\n", std::string(t["id"]), std::string(t["output"]), std::string(t["lights"]),
-            std::string(t["title"]), reason.empty() ? "" : "\n    not here: " + reason);
+            std::string(t["title"]), reason.empty() || !device ? "" : "\n    not here: " + reason);
     }
     return 0;
 }

@@ -7,14 +7,11 @@
 #include "base/progress.h"
 #include "metrics/metrics.h"
 
+#include <commit.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
-
-#ifndef GNOMON_COMMIT
-#define GNOMON_COMMIT "unknown"
-#endif
 
 namespace gnomon::lab {
 

@@ -14,10 +14,14 @@ TEST(Machine, WithoutVulkanThePictureIsRefusedAndTheTruthIsNot)
     const Scratch scratch;
     const RunOptions none{.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
     for (const std::vector<std::string>& command :
-        {std::vector<std::string>{"render", "plane"}, {"compare", "plane", "--techniques", "shadow_map"}, {"bench"}, {"list"}})
+        {std::vector<std::string>{"render", "plane"}, {"compare", "plane", "--techniques", "shadow_map"}, {"bench"}})
         expect_sentence(run_gnomon(command, scratch.folder(), none), 1, {"Vulkan driver", "VK_ICD_FILENAMES"});
     EXPECT_EQ(run_gnomon({"truth", "plane", "--size", "16x16", "-o", "a.exr"}, scratch.folder(), none).code, 0);
     EXPECT_EQ(run_gnomon({"list", "--scenes"}, scratch.folder(), none).code, 0);
+    const Finished list = run_gnomon({"list"}, scratch.folder(), none);
+    EXPECT_EQ(list.code, 0) << list.err;
+    EXPECT_NE(list.out.find("no device: "), std::string::npos) << list.out;
+    EXPECT_NE(list.out.find("shadow_map"), std::string::npos) << list.out;
 }
 
 TEST(Machine, AnUnknownDeviceListsThoseThatAreThere)
