@@ -102,7 +102,7 @@ private:
         const Rendered rendered = render(
             device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
-        score(stage_, light, truth, rendered, options_.truth_cache, run, &heat_map);
+        score(stage_, light, truth, rendered, run, &heat_map);
         if (truth_lit_.empty()) {
             truth_lit_ = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
             write("truth", truth_lit_, base::Encoding::srgb);

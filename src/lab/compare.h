@@ -56,10 +56,9 @@ inline const std::set<std::string> scored_aovs = {"depth", "geometric_normal"};
 /// surface: the same primitive, or coincident ones (depth within 1e-4 of its value, normals within 1 degree: a wall modelled twice,
 /// the two triangles of a quad at their shared edge). The others are counted as excluded.
 /// For hard lights `wrong_outside_band` counts wrong pixels with no true edge within half a pixel: the truth is traced again at
-/// the corners and edge centres of the pixels; receivers whose plane holds the light to within 1e-3 radians count as edges
-/// (their orientation is decided by the last bits).
-void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, const std::filesystem::path& truth_cache, Run& out,
-    base::Picture* heat_map = nullptr);
+/// the corners and edge centres of the pixels and close to their centres; receivers whose plane holds the light to within 1e-3 radians
+/// count as edges (their orientation is decided by the last bits).
+void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, Run& out, base::Picture* heat_map = nullptr);
 
 nlohmann::ordered_json results_json(const Comparison&);
 std::string results_table(const Comparison&); ///< for a terminal

@@ -113,7 +113,7 @@ PromiseReport check_promises(
         const truth::Reference truth
             = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
-        score(stage, stage.lights.front(), truth, rendered, truth_cache, run);
+        score(stage, stage.lights.front(), truth, rendered, run);
         const auto promise = own.promise.find(kind);
         if (promise == own.promise.end())
             base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);

@@ -64,7 +64,7 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
             = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5, .aovs = scored_aovs});
         base::Picture heat;
-        score(stage, stage.lights.front(), truth, rendered, {}, run, &heat);
+        score(stage, stage.lights.front(), truth, rendered, run, &heat);
         run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation,
         run.bytes = rendered.technique_bytes;
         comparison.runs.push_back(std::move(run));

@@ -11,19 +11,20 @@ namespace gnomon::lab {
 
 namespace {
 
-/// Pixels on which the hard truth is not the same all over: another value at one of eight points half a pixel away.
-std::vector<uint8_t> edge_band(
-    const Stage& stage, const scene::Light& light, const truth::Reference& truth, const std::filesystem::path& cache)
+/// Pixels on which the hard truth is not the same all over: another value at one of eight points half a pixel away, or at one of
+/// eight a fiftieth away, since a shadow thinner than half a pixel can lie on the centre and miss the others.
+std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, const truth::Reference& truth)
 {
     std::vector<uint8_t> band(truth.primary.primitive.size(), 0);
-    constexpr std::array<std::array<float, 2>, 8> around
-        = {{{-0.5f, -0.5f}, {0.5f, -0.5f}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0, -0.5f}, {0, 0.5f}, {-0.5f, 0}, {0.5f, 0}}};
-    for (const auto& [dx, dy] : around) {
-        const scene::View view = scene::make_view(stage.camera, stage.view.size, stage.bounds, vec2(dx, dy));
-        const truth::Reference shifted = truth::reference(stage.scene, view, light, {.samples = 1}, truth::Quantity::visibility, cache);
-        for (size_t i = 0; i < band.size(); ++i)
-            if (shifted.visibility.mean.values[i] != truth.visibility.mean.values[i]) band[i] = 1;
-    }
+    constexpr std::array<std::array<float, 2>, 8> around = {{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}, {0, -1}, {0, 1}, {-1, 0}, {1, 0}}};
+    const truth::Tracer tracer(stage.scene);
+    for (const float distance : {0.5f, 0.02f})
+        for (const auto& [dx, dy] : around) {
+            const scene::View view = scene::make_view(stage.camera, stage.view.size, stage.bounds, distance * vec2(dx, dy));
+            const truth::Visibility shifted = tracer.visibility(view, tracer.primary(view), light, {.samples = 1});
+            for (size_t i = 0; i < band.size(); ++i)
+                if (shifted.mean.values[i] != truth.visibility.mean.values[i]) band[i] = 1;
+        }
     for (size_t i = 0; i < band.size(); ++i) {
         const vec3 p(
             truth.primary.position.values[i * 3], truth.primary.position.values[i * 3 + 1], truth.primary.position.values[i * 3 + 2]);
@@ -54,8 +55,8 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
 
 } // namespace
 
-void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered,
-    const std::filesystem::path& cache, Run& out, base::Picture* heat_map)
+void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, Run& out,
+    base::Picture* heat_map)
 {
     const base::Picture& image = rendered.images.front();
     const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
@@ -72,7 +73,7 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
     if (hard && truth.visibility.mean.channels == 1 && out.scored_pixels > 0) {
         size_t outside = 0;
         if (out.metrics["wrong_pixels"] > 0) {
-            const std::vector<uint8_t> band = edge_band(stage, light, truth, cache);
+            const std::vector<uint8_t> band = edge_band(stage, light, truth);
             for (size_t i = 0; i < mask.size(); ++i)
                 outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
         }

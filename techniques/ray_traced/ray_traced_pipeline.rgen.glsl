@@ -7,10 +7,10 @@
 
 layout(location = 0) rayPayloadEXT uint missed;
 
-bool occluded(vec3 origin, vec3 direction, float length)
+bool occluded(vec3 origin, vec3 direction, float from, float to)
 {
     missed = 0;
-    traceRayEXT(scene, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff, 0, 0, 0, origin, 0.0, direction, length, 0);
+    traceRayEXT(scene, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff, 0, 0, 0, origin, from, direction, to, 0);
     return missed == 0;
 }
 

@@ -7,10 +7,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-bool occluded(vec3 origin, vec3 direction, float length)
+bool occluded(vec3 origin, vec3 direction, float from, float to)
 {
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xff, origin, 0.0, direction, length);
+    rayQueryInitializeEXT(query, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xff, origin, from, direction, to);
     while (rayQueryProceedEXT(query)) { // only masked triangles come here: the others are opaque to the hardware
         const uint slot = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
         const uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);

@@ -249,7 +249,7 @@ TEST_P(Promise, exact_methods_are_right_outside_the_band)
         const lab::Rendered rendered
             = lab::render(device(), scene, s, {&info, shadow::ParamValues(info.params())}, {.lit = false, .aovs = lab::scored_aovs});
         lab::Run run;
-        lab::score(s, s.lights.front(), truth, rendered, {}, run);
+        lab::score(s, s.lights.front(), truth, rendered, run);
         EXPECT_EQ(run.metrics.at("wrong_outside_band"), 0.0) << name;
         EXPECT_LT(double(run.excluded_pixels), 0.01 * double(run.scored_pixels + run.excluded_pixels)) << name;
     }
