@@ -100,6 +100,11 @@ std::unique_ptr<Device> Device::open(const DeviceOptions& options)
     c.own_instance = std::make_unique<Instance>(options.validation);
     const Instance& instance = *c.own_instance;
     FoundDevice found = choose(instance, options.name);
+    for (const std::string& name : options.without) {
+        found.extensions.erase(name);
+        found.info.ray_query &= name != VK_KHR_RAY_QUERY_EXTENSION_NAME;
+        found.info.ray_tracing_pipeline &= name != VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME;
+    }
     if (!instance.surface) found.extensions.erase(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     static_cast<InstanceFunctions&>(c.vk) = instance.vk;
     c.instance = instance.handle;

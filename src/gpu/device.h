@@ -34,6 +34,7 @@ struct DeviceInfo {
 struct DeviceOptions {
     std::string name; ///< part of the device's name, any case; empty = the first usable real GPU, else software
     bool validation = false; ///< VK_LAYER_KHRONOS_validation with synchronisation validation; messages are collected
+    std::vector<std::string> without; ///< extensions left out although the device has them: how code for lesser devices is tested
 };
 
 /// A device that the caller owns. All handles stay the caller's; the caller enabled the baseline (gpu::baseline_text()).
