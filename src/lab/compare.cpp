@@ -82,8 +82,8 @@ private:
         truth_lit_ = {};
         progress.advance();
         for (const Choice& choice : choices_) {
-            Run run{std::string(choice.info->id), stage_.scene_name, stage_.camera.name, light_, stage_.view.size,
-                choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0, 0, 0, shadow::refusal(*choice.info, device_, light)};
+            Run run = new_run(stage_, choice, light_);
+            run.skipped = shadow::refusal(*choice.info, device_, light);
             const bool comparable
                 = choice.info->output == shadow::Output::visibility || choice.info->output == shadow::Output::transmittance;
             if (run.skipped.empty() && !comparable)
@@ -97,8 +97,7 @@ private:
 
     void run_choice(const Choice& choice, const scene::Light& light, Run& run)
     {
-        const truth::Reference& truth = reference(
-            choice.info->output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility);
+        const truth::Reference& truth = reference(truth_quantity(*choice.info));
         const Rendered rendered = render(
             device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
@@ -110,8 +109,7 @@ private:
         }
         const base::Picture lit = display(rendered.radiance, stage_);
         run.metrics["flip"] = metrics::flip(lit, truth_lit_, &flip_map);
-        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation,
-        run.bytes = rendered.technique_bytes;
+        add_times(run, rendered);
         write(run.technique, lit, base::Encoding::srgb);
         write(run.technique + ".visibility", rendered.images.front(), base::Encoding::linear);
         write(run.technique + ".error", heat_map, base::Encoding::linear);

@@ -49,6 +49,13 @@ struct Comparison {
 /// base::Error.
 Comparison compare(gpu::Device&, const CompareOptions&);
 
+/// A run of this technique on this stage, not measured yet.
+Run new_run(const Stage&, const Choice&, const std::string& light);
+void add_times(Run&, const Rendered&); ///< passes, the technique's own time and memory
+
+/// The truth that judges this kind of output. Only for visibility and transmittance.
+truth::Quantity truth_quantity(const shadow::TechniqueInfo&);
+
 /// What `score` needs from render().
 inline const std::set<std::string> scored_aovs = {"depth", "geometric_normal"};
 

@@ -106,12 +106,9 @@ PromiseReport check_promises(
     for (const std::string& kind : claimed_kinds(info)) {
         const Stage stage = technique_stage(own, kind, size);
         shadow::SceneGpu scene(device, stage.scene);
-        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, size, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0,
-            0, 0, {}};
-        const truth::Quantity quantity
-            = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
-        const truth::Reference truth
-            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity, truth_cache);
+        Run run = new_run(stage, choice, kind);
+        const truth::Reference truth = truth::reference(
+            stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info), truth_cache);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
         score(stage, stage.lights.front(), truth, rendered, run);
         const auto promise = own.promise.find(kind);

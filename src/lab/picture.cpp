@@ -56,17 +56,13 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
     for (const std::string& kind : claimed_kinds(info)) {
         const Stage stage = technique_stage(own, kind, panel);
         shadow::SceneGpu scene(device, stage.scene);
-        Run run{std::string(info.id), stage.scene_name, stage.camera.name, kind, panel, choice.params.json().dump(), {}, 0, 0, 0, {}, 0, 0,
-            0, 0, {}};
-        const truth::Quantity quantity
-            = info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+        Run run = new_run(stage, choice, kind);
         const truth::Reference truth
-            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, quantity);
+            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info));
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5, .aovs = scored_aovs});
         base::Picture heat;
         score(stage, stage.lights.front(), truth, rendered, run, &heat);
-        run.passes = rendered.passes, run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation,
-        run.bytes = rendered.technique_bytes;
+        add_times(run, rendered);
         comparison.runs.push_back(std::move(run));
         if (!panels.empty()) continue;
         panels = {display(rendered.radiance, stage), display(shade_with(device, scene, stage, {truth.visibility.mean}, {}), stage),

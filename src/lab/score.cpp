@@ -3,6 +3,8 @@
 
 #include "metrics/metrics.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,6 +56,25 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
 }
 
 } // namespace
+
+Run new_run(const Stage& stage, const Choice& choice, const std::string& light)
+{
+    Run run;
+    run.technique = choice.info->id, run.scene = stage.scene_name, run.camera = stage.camera.name, run.light = light;
+    run.size = stage.view.size, run.params = choice.params.json().dump();
+    return run;
+}
+
+void add_times(Run& run, const Rendered& rendered)
+{
+    run.passes = rendered.passes, run.bytes = rendered.technique_bytes;
+    run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation;
+}
+
+truth::Quantity truth_quantity(const shadow::TechniqueInfo& info)
+{
+    return info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+}
 
 void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, Run& out,
     base::Picture* heat_map)
