@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shaders/filter.shared.h"
+#include "shadow/parts/light_map.h"
+
+#include <functional>
+#include <string>
+
+// What all prefiltered shadow maps have in common (variance, convolution, exponential, moment maps): depth is turned into values that may
+// be averaged, windows of them are averaged once a texel, and a receiver reads the mean of its window at a cost that does not depend on
+// the window's width. A technique gives two shaders: depth to values (shaders/filter_values.glsl) and mean to visibility
+// (shaders/filter_resolve.glsl).
+namespace gnomon::shadow::parts {
+
+/// Describes the shared parameters.
+void describe_filter(Fields&, shaders::FilterParams&);
+
+struct ValuesPass {
+    std::string shader; ///< fragment: values of one texel, one output a group
+    VkFormat format = VK_FORMAT_R32G32_SFLOAT;
+    int groups = 1; ///< images of values for each layer of the map, at most 8
+    std::vector<gpu::SpecConstant> spec{};
+    std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer
+};
+
+struct FilteredMap {
+    LightMap map;
+    gpu::ImageId values; ///< array: layer of the map * groups + group
+    gpu::ImageId means; ///< the same, averaged
+    shaders::FilterResolve constants; ///< for shaders/filter_resolve.glsl
+};
+
+/// Draws the light map and makes values and means.
+FilteredMap draw_filtered_map(gpu::PassList&, const Frame&, const shaders::FilterParams&, const ValuesPass&);
+
+/// The full-screen pass that writes frame.output. Bindings 0 to 2 are those of shaders/filter_resolve.glsl; `more` follow.
+void resolve_filtered(gpu::PassList&, const Frame&, const FilteredMap&, const gpu::Program&, gpu::Constants, std::vector<gpu::Binding> more = {});
+
+} // namespace gnomon::shadow::parts

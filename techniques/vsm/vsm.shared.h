@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_VSM_SHARED_H
+#define GNOMON_VSM_SHARED_H
+#include "shaders/filter.shared.h"
+
+TECHNIQUE_BEGIN(vsm)
+
+struct Params {
+    FilterParams filtering;
+    float min_deviation DEFAULT(0.0005f);
+    int slope_moment DEFAULT(1);
+    float bleed_reduction DEFAULT(0.2f);
+};
+
+struct ValuesConstants {
+    FilterValues map;
+    Params params;
+};
+
+struct ResolveConstants {
+    FilterResolve filtering;
+    Params params;
+};
+
+SHARED_END
+
+#endif
