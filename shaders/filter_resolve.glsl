@@ -7,6 +7,7 @@
 #include "shaders/light.glsl"
 #include "shaders/light_map.glsl"
 #include "shaders/receiver.glsl"
+#include "shaders/receiver_plane.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D normal_image;
@@ -19,7 +20,7 @@ struct FilterPoint {
     int layer; // of the map
     vec2 uv;
     float t; // centred depth (filter_values.glsl) of the receiver, moved towards the light by its bias
-    float slope; // change of t from one texel to the next, along the receiver's steepest direction
+    vec2 slope; // change of t along the receiver's plane, by one texel to the right and one down
 };
 
 // False where the map has no say: `visibility` is then written.
@@ -33,10 +34,13 @@ bool find_filter_point(out FilterPoint at)
     at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, r.p_world);
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const MapPoint m = project(layer, r.p_world);
-    const float slope = depth_per_texel(layer, c.filtering.map.centre, r.p_world, r.n_geometric);
     at.uv = m.uv;
-    at.t = centred_from_depth(layer, m.depth - c.filtering.params.bias * slope);
-    at.slope = 2.0 * slope / (layer.far - layer.near);
+    const float per_metre = 2.0 / (layer.far - layer.near);
+    at.slope = receiver_slope(layer, r.p_world, r.n_geometric) * (-per_metre / (stored_per_metre(layer, m.depth) * c.filtering.map.size));
+    // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
+    const float texel = metres_per_texel(layer, m.depth) * per_metre;
+    at.slope *= min(1.0, 50.0 * texel / max(length(at.slope), 1e-20));
+    at.t = centred_from_depth(layer, m.depth) - c.filtering.params.bias * (abs(at.slope.x) + abs(at.slope.y));
     return true;
 }
 
@@ -46,6 +50,31 @@ vec4 window_mean(FilterPoint at, int group)
 {
     const vec2 uv = at.uv + c.filtering.shift / c.filtering.map.size;
     return textureLod(means_image, vec3(uv, float(at.layer * c.filtering.groups + group)), 0.0);
+}
+
+// The four windows that window_mean blends, i = 0 to 3, for means that must not be blended by the sampler.
+struct WindowTexel {
+    ivec2 texel;
+    float weight;
+};
+WindowTexel window_texel(FilterPoint at, int i)
+{
+    const vec2 p = at.uv * c.filtering.map.size + c.filtering.shift - 0.5;
+    const ivec2 e = ivec2(i & 1, i >> 1);
+    const vec2 f = p - floor(p), w = mix(1.0 - f, f, vec2(e));
+    return WindowTexel(clamp(ivec2(floor(p)) + e, ivec2(0), ivec2(c.filtering.map.size) - 1), w.x * w.y);
+}
+
+// (minimum, maximum) of a window_min_max over the same texels.
+vec2 window_range(sampler2DArray pairs, FilterPoint at)
+{
+    vec2 range = vec2(1e30, -1e30);
+    for (int i = 0; i < 4; ++i) {
+        const WindowTexel w = window_texel(at, i);
+        const vec2 pair = texelFetch(pairs, ivec3(w.texel, at.layer), 0).xy;
+        if (w.weight > 0.0) range = vec2(min(range.x, pair.x), max(range.y, pair.y));
+    }
+    return range;
 }
 
 #endif

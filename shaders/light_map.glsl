@@ -59,16 +59,6 @@ float metres_per_texel(LightMapLayer layer, float depth)
 // Linear depth on [-1, 1]: near to far plane.
 float centred_from_depth(LightMapLayer layer, float depth) { return 2.0 * (depth - layer.near) / (layer.far - layer.near) - 1.0; }
 
-// Metres of depth by which a receiver's plane changes across one texel, along its steepest direction. A plane n.(q - p) = 0 seen along
-// rays o + d r has d = n.(p - o) / n.r, so that dd = -d n.dr / n.r, and |dr| over a texel is texel_metres (across the axis).
-float depth_per_texel(LightMapLayer layer, vec3 centre, vec3 p_world, vec3 n)
-{
-    const vec3 axis = layer.depth_plane.xyz;
-    const float depth = dot(layer.depth_plane, vec4(p_world, 1.0));
-    const vec3 ray = layer.perspective != 0 ? (p_world - centre) / max(depth, 1e-20) : axis;
-    return metres_per_texel(layer, depth) * length(n - axis * dot(n, axis)) / max(abs(dot(n, ray)), 1e-4);
-}
-
 MapPoint project(LightMapLayer layer, vec3 p_world)
 {
     MapPoint m;

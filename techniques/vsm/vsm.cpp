@@ -15,9 +15,11 @@ void describe(Params& p, Fields& fields)
 {
     parts::describe_filter(fields, p.filtering);
     fields.real("min_deviation", p.min_deviation, {0, 0.1}, "depth range",
-        "Standard deviation that a window is given at least, as a fraction of the light's depth range: rounding must not look like an edge.");
+        "Standard deviation that a window is given at least, as a fraction of the light's depth range: rounding must not look like an "
+        "edge.");
     fields.flag("slope_moment", p.slope_moment, "Count the depth that a tilted surface covers within a texel into the second moment.");
-    fields.real("bleed_reduction", p.bleed_reduction, {0, 0.9}, "", "Fractions of light up to this one become dark; the rest is stretched.");
+    fields.real(
+        "bleed_reduction", p.bleed_reduction, {0, 0.9}, "", "Fractions of light up to this one become dark; the rest is stretched.");
 }
 
 class Method final : public TechniqueWith<Params> {

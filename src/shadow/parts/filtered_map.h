@@ -19,9 +19,11 @@ void describe_filter(Fields&, shaders::FilterParams&);
 struct ValuesPass {
     std::string shader; ///< fragment: values of one texel, one output a group
     VkFormat format = VK_FORMAT_R32G32_SFLOAT;
-    int groups = 1; ///< images of values for each layer of the map, at most 8
-    std::vector<gpu::SpecConstant> spec{};
+    int groups = 1; ///< images of values for each layer of the map, at most `outputs`
+    int outputs = 1; ///< that the shader declares, at most 8
+    std::vector<gpu::Binding> more{}; ///< of the shader, after its depth map
     std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer
+    gpu::ImageId (*average)(gpu::PassList&, gpu::ImageId values, int width) = nullptr; ///< instead of the mean that FilterParams asks for
 };
 
 struct FilteredMap {
@@ -34,7 +36,12 @@ struct FilteredMap {
 /// Draws the light map and makes values and means.
 FilteredMap draw_filtered_map(gpu::PassList&, const Frame&, const shaders::FilterParams&, const ValuesPass&);
 
+/// The same in two steps, for techniques that look at the depths in between.
+LightMap draw_map_to_filter(gpu::PassList&, const Frame&, const shaders::FilterParams&);
+FilteredMap filter_map(gpu::PassList&, const Frame&, const LightMap&, const shaders::FilterParams&, const ValuesPass&);
+
 /// The full-screen pass that writes frame.output. Bindings 0 to 2 are those of shaders/filter_resolve.glsl; `more` follow.
-void resolve_filtered(gpu::PassList&, const Frame&, const FilteredMap&, const gpu::Program&, gpu::Constants, std::vector<gpu::Binding> more = {});
+void resolve_filtered(
+    gpu::PassList&, const Frame&, const FilteredMap&, const gpu::Program&, gpu::Constants, std::vector<gpu::Binding> more = {});
 
 } // namespace gnomon::shadow::parts

@@ -12,9 +12,14 @@ layout(set = 0, binding = 1) writeonly uniform image2DArray to;
 
 layout(constant_id = 0) const int width = 3;
 layout(constant_id = 1) const int axis = 0; // 0: along x, 1: along y
-layout(constant_id = 2) const int operation = 0; // 0: mean, 1: (minimum, maximum) of pairs
+layout(constant_id = 2) const int operation = 0; // 0: mean, 1: (minimum, maximum) of pairs, 2: log of the mean of exp, one channel
 
-vec4 join(vec4 a, vec4 b) { return operation == 0 ? a + b : vec4(min(a.x, b.x), max(a.yzw, b.yzw)); }
+vec4 join(vec4 a, vec4 b)
+{
+    if (operation == 0) return a + b;
+    if (operation == 1) return vec4(min(a.x, b.x), max(a.yzw, b.yzw));
+    return vec4(max(a.x, b.x) + log(1.0 + exp(-abs(a.x - b.x))));
+}
 
 void main()
 {
@@ -33,6 +38,7 @@ void main()
         suffix[k] = sum;
     }
     const float scale = operation == 0 ? 1.0 / float(width) : 1.0;
+    const float offset = operation == 2 ? -log(float(width)) : 0.0;
     for (int k = 0; k < width && first + k < length_along; ++k) {
         vec4 result = suffix[k];
         if (k > 0) {
@@ -41,6 +47,6 @@ void main()
             sum = k == 1 ? value : join(sum, value);
             result = join(result, sum);
         }
-        imageStore(to, ivec3(axis == 0 ? ivec2(first + k, across) : ivec2(across, first + k), layer), result * scale);
+        imageStore(to, ivec3(axis == 0 ? ivec2(first + k, across) : ivec2(across, first + k), layer), result * scale + offset);
     }
 }

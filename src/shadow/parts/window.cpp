@@ -10,7 +10,7 @@ namespace gnomon::shadow::parts {
 
 namespace {
 
-enum Operation : uint32_t { mean, min_max };
+enum Operation : uint32_t { mean, min_max, log_mean_exp };
 
 gpu::ImageId like(gpu::PassList& passes, gpu::ImageId image, const char* name)
 {
@@ -65,6 +65,11 @@ gpu::ImageId weigh(gpu::PassList& passes, gpu::ImageId from, const std::vector<f
 gpu::ImageId window_mean(gpu::PassList& passes, gpu::ImageId values, int width) { return slide_both(passes, values, width, mean); }
 
 gpu::ImageId window_min_max(gpu::PassList& passes, gpu::ImageId pairs, int width) { return slide_both(passes, pairs, width, min_max); }
+
+gpu::ImageId window_log_mean_exp(gpu::PassList& passes, gpu::ImageId logs, int width)
+{
+    return slide_both(passes, logs, width, log_mean_exp);
+}
 
 std::vector<float> gaussian_weights(int width)
 {

@@ -19,6 +19,9 @@ gpu::ImageId window_mean(gpu::PassList&, gpu::ImageId values, int width);
 /// x: minimum of x, y: maximum of y (of pairs (v, v) or of (min, max) made before).
 gpu::ImageId window_min_max(gpu::PassList&, gpu::ImageId pairs, int width);
 
+/// log(mean(exp(x))) of one channel: box means of numbers whose exponentials no format holds.
+gpu::ImageId window_log_mean_exp(gpu::PassList&, gpu::ImageId logs, int width);
+
 /// Means under a Gaussian of standard deviation width / 6, cut off at the window. Two full-screen passes a layer, time linear in the
 /// width. `width` <= 127.
 gpu::ImageId window_gaussian(gpu::PassList&, gpu::ImageId values, int width);

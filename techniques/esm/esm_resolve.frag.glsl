@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/esm/esm.shared.h"
+
+#include "shaders/filter_resolve.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2DArray values_image; // before averaging
+layout(set = 0, binding = 4) uniform sampler2DArray largest_image; // in each window; read for max_depth
+
+// exp(c (z - t) / 2) from what the map holds: the logarithm's difference first, so that nothing overflows.
+float exponential(float value, float t)
+{
+    const float exponent = 0.5 * c.params.exponent * t;
+    return c.params.space == 0 ? value * exp(-exponent) : exp(min(value - exponent, 80.0));
+}
+
+float mean_exponential(FilterPoint at)
+{
+    if (c.params.space == 0) return exponential(window_mean(at, 0).x, at.t);
+    // logarithms cannot be blended: the four windows around the point are, after the exponential
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        const WindowTexel w = window_texel(at, i);
+        sum += w.weight * exponential(texelFetch(means_image, ivec3(w.texel, at.layer), 0).x, at.t);
+    }
+    return sum;
+}
+
+bool any_behind(FilterPoint at) { return exponential(window_range(largest_image, at).y, at.t) > 1.0 + c.params.threshold; }
+
+// What the mean would be if the window held the receiver's own plane and nothing else: the mean of exp(c (gx x + gy y) / 2) over n x n
+// texels is a product of sinh(a) / a with a = c g n / 4.
+float mean_of_plane(FilterPoint at)
+{
+    const vec2 a = min(0.25 * c.params.exponent * abs(at.slope) * float(c.filtering.params.kernel), vec2(20.0));
+    const vec2 s = mix(sinh(a) / max(a, vec2(1e-3)), vec2(1.0), lessThan(a, vec2(1e-3)));
+    return s.x * s.y;
+}
+
+// Percentage-closer filtering of the exponentials, each against the receiver's plane and cut off at 1 (Annen et al. 2008, section 4): what
+// their mean would be, had no texel lain behind the receiver. The weights are those of window_mean.
+float clamped_exponentials(FilterPoint at)
+{
+    const int n = c.filtering.params.kernel;
+    const vec2 corner = at.uv * c.filtering.map.size - 0.5 * float(n);
+    const ivec2 first = ivec2(floor(corner)), last = ivec2(c.filtering.map.size) - 1;
+    const vec2 f = corner - floor(corner);
+    float sum = 0.0;
+    for (int y = 0; y <= n; ++y) {
+        float row = 0.0;
+        for (int x = 0; x <= n; ++x) {
+            const float weight = x == 0 ? 1.0 - f.x : x == n ? f.x : 1.0;
+            const ivec2 texel = clamp(first + ivec2(x, y), ivec2(0), last);
+            const float t = at.t + dot(at.slope, vec2(first + ivec2(x, y)) + 0.5 - at.uv * c.filtering.map.size);
+            row += weight * min(1.0, exponential(texelFetch(values_image, ivec3(texel, at.layer), 0).x, t));
+        }
+        sum += row * (y == 0 ? 1.0 - f.y : y == n ? f.y : 1.0);
+    }
+    return sum / float(n * n);
+}
+
+void main()
+{
+    FilterPoint at;
+    if (!find_filter_point(at)) return;
+    const float mean = mean_exponential(at);
+    const bool broken = c.params.fallback == 1 ? mean > mean_of_plane(at) + c.params.threshold : c.params.fallback == 2 && any_behind(at);
+    visibility = min(broken ? clamped_exponentials(at) : mean, 1.0);
+}

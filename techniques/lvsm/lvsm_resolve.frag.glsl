@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/lvsm/lvsm.shared.h"
+
+#include "shaders/filter_resolve.glsl"
+#include "techniques/lvsm/lvsm.glsl"
+
+layout(set = 0, binding = 3, scalar) readonly buffer Bounds { float bounds[]; };
+
+void main()
+{
+    FilterPoint at;
+    if (!find_filter_point(at)) return;
+    int layer = 0;
+    while (layer + 1 < c.params.layers && at.t >= bounds[layer + 1]) ++layer;
+    const float deviation = 2.0 * c.params.min_deviation; // the centred range is two wide
+    const float p = layer_visibility(window_mean(at, layer).xy, at.t, bounds[layer], bounds[layer + 1], c.params.overlap, deviation);
+    visibility = reduce_bleeding(p, c.params.bleed_reduction);
+}

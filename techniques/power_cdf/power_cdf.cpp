@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Filtering by a power function fitted to the distribution of depths (Gumbau, Szirmay-Kalos, Sbert, Chover 2011).
+#include "techniques/power_cdf/power_cdf.shared.h"
+
+#include "shadow/parts/filtered_map.h"
+#include "shadow/parts/window.h"
+#include "shadow/technique.h"
+
+namespace gnomon::techniques::power_cdf {
+
+namespace {
+
+using namespace shadow;
+
+void describe(Params& p, Fields& fields)
+{
+    parts::describe_filter(fields, p.filtering);
+    fields.real("plane_bias", p.plane_bias, {0, 4}, "half windows",
+        "A receiver is moved towards the light by the depth that its plane gains from the window's centre to its rim, times this.");
+    fields.real(
+        "bleed_reduction", p.bleed_reduction, {0, 0.9}, "", "Fractions of light up to this one become dark; the rest is stretched.");
+}
+
+class Method final : public TechniqueWith<Params> {
+public:
+    explicit Method(gpu::Device& device)
+        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/power_cdf/power_cdf_resolve.frag"))
+    {
+    }
+
+private:
+    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    {
+        parts::FilteredMap map = parts::draw_filtered_map(passes, frame, params.filtering,
+            {.shader = "techniques/power_cdf/power_cdf_values.frag",
+                .format = VK_FORMAT_R32G32_SFLOAT,
+                .constants = [&](const FilterValues& layer) {
+                    return ValuesConstants{layer, params};
+                }});
+        const gpu::ImageId range = parts::window_min_max(passes, map.values, params.filtering.kernel);
+        map.constants.params.bias += params.plane_bias * 0.5f * float(params.filtering.kernel);
+        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params},
+            {gpu::Binding(range, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
+    }
+
+    const gpu::Program& resolve_;
+};
+
+} // namespace
+
+} // namespace gnomon::techniques::power_cdf
+
+extern const gnomon::shadow::TechniqueInfo technique_power_cdf;
+const gnomon::shadow::TechniqueInfo technique_power_cdf = {
+    .id = "power_cdf",
+    .title = "Power-function shadow map",
+    .family = "filtered hard shadows",
+    .cite = "Gumbau, Szirmay-Kalos, Sbert, Chover 2011",
+    .output = gnomon::shadow::Output::visibility,
+    .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
+    .params = [] { return gnomon::shadow::param_table(gnomon::techniques::power_cdf::describe); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::power_cdf::Method>(device);
+    },
+};

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/power_cdf/power_cdf.shared.h"
+
+#include "shaders/filter_resolve.glsl"
+#include "shaders/chebyshev.glsl"
+#include "techniques/power_cdf/power_cdf.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2DArray range_image;
+
+void main()
+{
+    FilterPoint at;
+    if (!find_filter_point(at)) return;
+    const vec2 z = window_range(range_image, at);
+    visibility = reduce_bleeding(power_visibility(window_mean(at, 0).x, z.x, z.y, at.t), c.params.bleed_reduction);
+}
