@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums and means over rectangles of texels from a summed-area table (shadow/parts/summed_area_table.h), of floats or of integers that
-// wrap around. Texel i covers [i, i + 1): a window [lo, hi) in these units may begin and end inside texels, which then count by the
-// part that is covered, as in a box filter of the image as it is drawn with nearest sampling. Channels that the table lacks come out as 0.
+// Sums and means over windows (shaders/windows.glsl) from a summed-area table (shadow/parts/summed_area_table.h), of floats or of
+// integers that wrap around. Windows may begin and end inside texels, which then count by the part that is covered, as in a box filter of the
+// image as nearest sampling shows it. Channels that the table lacks come out as 0.
 #ifndef GNOMON_SUMMED_AREA_TABLE_GLSL
 #define GNOMON_SUMMED_AREA_TABLE_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/windows.glsl"
 
 // Over whole texels, lo <= texel < hi, both within [0, size]: four fetches.
 vec4 window_sum(sampler2DArray sums, int layer, ivec2 lo, ivec2 hi)
@@ -28,16 +30,12 @@ struct WindowRuns {
 
 WindowRuns window_runs(float lo, float hi, int size)
 {
-    lo = clamp(lo, 0.0, float(size));
-    hi = clamp(hi, 0.0, float(size));
-    // An empty window is the texel nearest to its middle, the limit of ever smaller ones.
-    if (!(lo < hi)) {
-        const int texel = clamp(int(floor(0.5 * (lo + hi))), 0, size - 1);
-        return WindowRuns(ivec4(texel, texel + 1, texel + 1, texel + 1), vec3(1.0, 0.0, 0.0));
-    }
-    const int first = int(floor(lo)), last = int(ceil(hi)) - 1;
-    if (first == last) return WindowRuns(ivec4(first, first + 1, first + 1, first + 1), vec3(hi - lo, 0.0, 0.0));
-    return WindowRuns(ivec4(first, first + 1, last, last + 1), vec3(float(first + 1) - lo, 1.0, hi - float(last)));
+    const ivec2 touched = touched_texels(lo, hi, size);
+    const int first = touched.x, last = touched.y;
+    // of one texel the mean is its value, whatever part is covered
+    if (first == last) return WindowRuns(ivec4(first, ivec3(first + 1)), vec3(1.0, 0.0, 0.0));
+    return WindowRuns(
+        ivec4(first, first + 1, last, last + 1), vec3(float(first + 1) - max(lo, 0.0), 1.0, min(hi, float(size)) - float(last)));
 }
 
 float window_width(WindowRuns r) { return r.weight.x + r.weight.y * float(r.at.z - r.at.y) + r.weight.z; }
