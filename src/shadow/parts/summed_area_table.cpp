@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/summed_area_table.h"
+
+#include "base/error.h"
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::shadow::parts {
+
+namespace {
+
+VkFormat format_of(int channels, VkFormat one, VkFormat two, VkFormat four)
+{
+    if (channels != 1 && channels != 2 && channels != 4)
+        base::fail("a summed-area table has 1, 2 or 4 channels, not {}; choose one of these", channels);
+    return channels == 1 ? one : channels == 2 ? two : four;
+}
+
+/// One scan: rows of `from` to columns of the result, which has the entry 0 before them.
+gpu::ImageId scan(gpu::PassList& passes, const char* name, gpu::ImageId from, VkFormat format, const char* shader, gpu::Constants constants)
+{
+    const gpu::SpecConstant channels[] = {{0, uint32_t(gpu::texel_bytes(format) / 4)}};
+    const gpu::ImageDesc desc = passes.desc(from);
+    const gpu::ImageId to = passes.transient(
+        {format, {desc.size.height, desc.size.width + 1}, desc.layers, 1, VK_SAMPLE_COUNT_1_BIT, false, "summed-area table"});
+    passes.compute(
+        {name, &passes.device().compute_program(shader, channels), {gpu::Binding(from, gpu::Use::sample).mips(0, 1), {to, gpu::Use::store}},
+            std::move(constants), {uint32_t(desc.size.height) * 32, desc.layers, 1}});
+    return to;
+}
+
+} // namespace
+
+gpu::ImageId build_float_sums(gpu::PassList& passes, gpu::ImageId from, int channels, vec4 centre)
+{
+    const VkFormat format = format_of(channels, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const char* shader = "src/shadow/parts/summed_area_float.comp";
+    const gpu::ImageId rows = scan(passes, "sum rows", from, format, shader, centre);
+    return scan(passes, "sum columns", rows, format, shader, vec4(0));
+}
+
+gpu::ImageId build_integer_sums(gpu::PassList& passes, gpu::ImageId from, int channels, int bits)
+{
+    if (bits < 1 || bits > 24) base::fail("an integer summed-area table has 1 to 24 bits a value, not {}; see integer_sum_bits", bits);
+    const VkFormat format = format_of(channels, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT);
+    const gpu::ImageId rows = scan(passes, "sum rows", from, format, "src/shadow/parts/summed_area_quantise.comp", float((1 << bits) - 1));
+    return scan(passes, "sum columns", rows, format, "src/shadow/parts/summed_area_integer.comp", {});
+}
+
+int integer_sum_bits(double texels) { return std::clamp(32 - int(std::ceil(std::log2(std::max(texels, 1.0)))), 1, 24); }
+
+} // namespace gnomon::shadow::parts

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases of the lookups over windows of texels.
+#ifndef GNOMON_TESTS_WINDOWS_SHARED_H
+#define GNOMON_TESTS_WINDOWS_SHARED_H
+#include "shaders/shared.h"
+
+SHARED_BEGIN(shaders)
+
+struct WindowCase {
+    int layer;
+    vec2 lo;
+    vec2 hi;
+};
+
+struct IntegerSums {
+    uvec4 sum; ///< of the whole texels from floor(lo) to floor(hi)
+    vec4 mean;
+};
+
+SHARED_END
+
+#endif
