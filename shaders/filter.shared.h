@@ -26,6 +26,7 @@ struct FilterParams {
 struct FilterValues {
     LightMapLayer layer;
     int index;
+    int prefilter;
 };
 
 /// For shaders/filter_resolve.glsl.
@@ -36,6 +37,8 @@ struct FilterResolve {
     FilterParams params;
     int groups; ///< array layers of values for each layer of the map
     float shift; ///< texels from a receiver to where its window's mean lies: half a one for even kernels
+    float sum_step; ///< PREFILTER_SUMS: value of one count
+    float widest; ///< PREFILTER_SUMS: texels a side of the widest window with exact sums
 };
 
 SHARED_END

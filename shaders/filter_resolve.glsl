@@ -8,11 +8,15 @@
 #include "shaders/light_map.glsl"
 #include "shaders/receiver.glsl"
 #include "shaders/receiver_plane.glsl"
+#include "shaders/summed_area_table.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D normal_image;
 layout(set = 0, binding = 2) uniform sampler2DArray means_image; // of the values, one window a texel
+layout(set = 0, binding = 3) uniform usampler2DArray sums_image; // PREFILTER_SUMS
 layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
+
+layout(constant_id = 0) const int prefilter = PREFILTER_BOX;
 
 layout(location = 0) out float visibility;
 
@@ -20,6 +24,7 @@ struct FilterPoint {
     int layer; // of the map
     vec2 uv;
     float t; // centred depth (filter_values.glsl) of the receiver, moved towards the light by its bias
+    vec2 dx, dy; // the pixel's footprint: change of uv from it to the next ones
     vec2 slope; // change of t along the receiver's plane, by one texel to the right and one down
 };
 
@@ -35,6 +40,12 @@ bool find_filter_point(out FilterPoint at)
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const MapPoint m = project(layer, r.p_world);
     at.uv = m.uv;
+    at.dx = at.dy = vec2(0.0);
+    if (prefilter == PREFILTER_MIPS || prefilter == PREFILTER_SUMS) {
+        const vec2 pixel = gl_FragCoord.xy;
+        at.dx = project(layer, beside_on_plane(c.filtering.view, r.p_world, r.n_geometric, pixel, pixel + vec2(1, 0))).uv - m.uv;
+        at.dy = project(layer, beside_on_plane(c.filtering.view, r.p_world, r.n_geometric, pixel, pixel + vec2(0, 1))).uv - m.uv;
+    }
     const float per_metre = 2.0 / (layer.far - layer.near);
     at.slope = receiver_slope(layer, r.p_world, r.n_geometric) * (-per_metre / (stored_per_metre(layer, m.depth) * c.filtering.map.size));
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
@@ -45,11 +56,20 @@ bool find_filter_point(out FilterPoint at)
 }
 
 // The mean of the values of one group over the receiver's window. Between texels the windows' means are blended, which makes the window
-// one of n + 1 texels with the fractions as the outer weights, as for overlapping bilinear taps.
+// one of n + 1 texels with the fractions as the outer weights, as for overlapping bilinear taps. Summed-area tables have that window
+// itself, or one as wide as the pixel's footprint where that is wider; mips are for footprints only.
 vec4 window_mean(FilterPoint at, int group)
 {
-    const vec2 uv = at.uv + c.filtering.shift / c.filtering.map.size;
-    return textureLod(means_image, vec3(uv, float(at.layer * c.filtering.groups + group)), 0.0);
+    const int layer = at.layer * c.filtering.groups + group;
+    const float size = c.filtering.map.size;
+    if (prefilter == PREFILTER_SUMS) {
+        const vec2 footprint = size * (abs(at.dx) + abs(at.dy));
+        const vec2 half_width = 0.5 * clamp(footprint, vec2(c.filtering.params.kernel), vec2(c.filtering.widest));
+        return 2.0 * window_mean(sums_image, layer, at.uv * size - half_width, at.uv * size + half_width, c.filtering.sum_step) - 1.0;
+    }
+    const vec3 uv = vec3(at.uv + c.filtering.shift / size, float(layer));
+    if (prefilter == PREFILTER_MIPS) return textureLod(means_image, uv, log2(max(size * max(length(at.dx), length(at.dy)), 1.0)));
+    return textureLod(means_image, uv, 0.0);
 }
 
 // The four windows that window_mean blends, i = 0 to 3, for means that must not be blended by the sampler.

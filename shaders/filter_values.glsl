@@ -30,4 +30,7 @@ vec2 centred_slope(FilterValues f, ivec2 texel)
     return slope;
 }
 
+// Values in [-1, 1] as the prefilter stores them: integer sums hold [0, 1].
+vec4 stored_values(FilterValues f, vec4 values) { return f.prefilter == PREFILTER_SUMS ? 0.5 + 0.5 * values : values; }
+
 #endif

@@ -33,6 +33,21 @@ Receiver load_receiver(View view, sampler2D depth_image, usampler2D normal_image
     return r;
 }
 
+// Where the ray of another pixel meets the receiver's plane, in the plane's first-order approximation at p: planes seen edge-on would
+// put it at the horizon or behind the eye.
+vec3 beside_on_plane(View view, vec3 p_world, vec3 n, vec2 pixel_from, vec2 pixel_to)
+{
+    const vec4 a = view.world_from_clip * vec4(pixel_from / view.size * 2.0 - 1.0, 1.0, 1.0);
+    const vec4 b = view.world_from_clip * vec4(pixel_to / view.size * 2.0 - 1.0, 1.0, 1.0);
+    // both on the near plane: their difference, scaled out to p, is the step across the view
+    const vec3 near_a = a.xyz / a.w, near_b = b.xyz / b.w;
+    const float scale = view.orthographic != 0 ? 1.0 : dot(p_world - view.eye, view.forward) / max(dot(near_a - view.eye, view.forward), 1e-20);
+    const vec3 step_across = (near_b - near_a) * scale;
+    const vec3 ray = view.orthographic != 0 ? view.forward : normalize(p_world - view.eye);
+    const float facing = dot(n, ray);
+    return p_world + step_across - ray * (dot(n, step_across) / (abs(facing) < 0.02 ? (facing < 0.0 ? -0.02 : 0.02) : facing));
+}
+
 // Unit vector from the eye's picture towards the viewer.
 vec3 towards_eye(View view, vec3 p_world) { return view.orthographic != 0 ? -view.forward : normalize(view.eye - p_world); }
 

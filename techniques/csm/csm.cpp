@@ -23,13 +23,6 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/csm/csm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         const int groups = (params.terms + 1) / 2;
@@ -41,10 +34,8 @@ private:
                 .constants = [&](const FilterValues& layer) {
                     return ValuesConstants{layer, params};
                 }});
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params});
+        parts::resolve_filtered(passes, frame, map, "techniques/csm/csm_resolve.frag", ResolveConstants{map.constants, params});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -60,7 +51,7 @@ const gnomon::shadow::TechniqueInfo technique_csm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::csm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::csm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::csm::Method>();
     },
 };

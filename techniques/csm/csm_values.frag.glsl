@@ -11,5 +11,5 @@ layout(location = 0) out vec4 values[8];
 void main()
 {
     const float phase = phase_of(centred_depth(c.map, ivec2(gl_FragCoord.xy)));
-    for (int i = 0; i < 8; ++i) values[i] = 0.5 + 0.5 * sines(phase, i);
+    for (int i = 0; i < 8; ++i) values[i] = stored_values(c.map, 0.5 + 0.5 * sines(phase, i));
 }

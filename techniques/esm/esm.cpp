@@ -16,7 +16,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_filter(fields, p.filtering);
+    parts::describe_filter(fields, p.filtering, parts::Averages::no_sums);
     fields.real("exponent", p.exponent, {1, 5000}, "", "Exponent over the light's depth range; in `linear` space at most 160.");
     fields.choice("space", p.space, {"linear", "log"},
         "Average the exponentials as they are, or their logarithms by log-sum-exp, which has no largest exponent.");
@@ -27,13 +27,6 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/esm/esm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         Params capped = params;
@@ -49,12 +42,10 @@ private:
                 .average = params.space == 1 ? parts::window_log_mean_exp : nullptr});
         const bool by_depth = params.fallback == 2;
         const gpu::ImageId largest = by_depth ? parts::window_min_max(passes, map.values, params.filtering.kernel) : map.values;
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, capped},
+        parts::resolve_filtered(passes, frame, map, "techniques/esm/esm_resolve.frag", ResolveConstants{map.constants, capped},
             {gpu::Binding(map.values, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 gpu::Binding(largest, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -70,7 +61,7 @@ const gnomon::shadow::TechniqueInfo technique_esm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::esm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::esm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::esm::Method>();
     },
 };

@@ -5,8 +5,8 @@
 
 #include "shaders/filter_resolve.glsl"
 
-layout(set = 0, binding = 3) uniform sampler2DArray values_image; // before averaging
-layout(set = 0, binding = 4) uniform sampler2DArray largest_image; // in each window; read for max_depth
+layout(set = 0, binding = 4) uniform sampler2DArray values_image; // before averaging
+layout(set = 0, binding = 5) uniform sampler2DArray largest_image; // in each window; read for max_depth
 
 // exp(c (z - t) / 2) from what the map holds: the logarithm's difference first, so that nothing overflows.
 float exponential(float value, float t)

@@ -15,7 +15,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_filter(fields, p.filtering);
+    parts::describe_filter(fields, p.filtering, parts::Averages::no_sums);
     fields.choice("components", p.components, {"2", "4"},
         "Moments of the positive warp only, or of the negative one as well: the smaller of both bounds holds.");
     fields.choice("format", p.format, {"f32", "f16"}, "Floating-point format of the moments; its range caps the exponents (80 and 10).");
@@ -28,13 +28,6 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/evsm/evsm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         Params capped = params;
@@ -50,10 +43,8 @@ private:
                 .constants = [&](const FilterValues& layer) {
                     return ValuesConstants{layer, capped};
                 }});
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, capped});
+        parts::resolve_filtered(passes, frame, map, "techniques/evsm/evsm_resolve.frag", ResolveConstants{map.constants, capped});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -69,7 +60,7 @@ const gnomon::shadow::TechniqueInfo technique_evsm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::evsm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::evsm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::evsm::Method>();
     },
 };

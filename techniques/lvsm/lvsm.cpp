@@ -51,13 +51,6 @@ gpu::BufferId place_layers(gpu::PassList& passes, const parts::LightMap& map, co
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/lvsm/lvsm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         const parts::LightMap light_map = parts::draw_map_to_filter(passes, frame, params.filtering);
@@ -71,10 +64,9 @@ private:
                 .constants = [&](const FilterValues& layer) {
                     return ValuesConstants{layer, params};
                 }});
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params}, {{bounds, gpu::Use::load}});
+        parts::resolve_filtered(
+            passes, frame, map, "techniques/lvsm/lvsm_resolve.frag", ResolveConstants{map.constants, params}, {{bounds, gpu::Use::load}});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -90,7 +82,7 @@ const gnomon::shadow::TechniqueInfo technique_lvsm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::lvsm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::lvsm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::lvsm::Method>();
     },
 };

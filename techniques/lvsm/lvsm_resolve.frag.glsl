@@ -6,7 +6,7 @@
 #include "shaders/filter_resolve.glsl"
 #include "techniques/lvsm/lvsm.glsl"
 
-layout(set = 0, binding = 3, scalar) readonly buffer Bounds { float bounds[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Bounds { float bounds[]; };
 
 void main()
 {

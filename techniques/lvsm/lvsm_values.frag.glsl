@@ -15,6 +15,6 @@ void main()
     for (int i = 0; i < LVSM_MAX_LAYERS; ++i) {
         const int layer = min(i, c.params.layers - 1);
         const float w = layer_warp(t, bounds[layer], bounds[layer + 1], c.params.overlap);
-        moments[i] = vec2(w, w * w);
+        moments[i] = stored_values(c.map, vec2(w, w * w).xyxy).xy;
     }
 }

@@ -23,13 +23,6 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/msm/msm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         const parts::FilteredMap map = parts::draw_filtered_map(passes, frame, params.filtering,
@@ -38,10 +31,8 @@ private:
                 .constants = [&](const FilterValues& layer) {
                     return ValuesConstants{layer, params};
                 }});
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params});
+        parts::resolve_filtered(passes, frame, map, "techniques/msm/msm_resolve.frag", ResolveConstants{map.constants, params});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -57,7 +48,7 @@ const gnomon::shadow::TechniqueInfo technique_msm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::msm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::msm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::msm::Method>();
     },
 };

@@ -12,5 +12,5 @@ void main()
 {
     const float t = centred_depth(c.map, ivec2(gl_FragCoord.xy));
     const vec4 b = vec4(t, t * t, t * t * t, t * t * t * t);
-    moments = c.params.format == 0 ? b : quantised_from_moments(b);
+    moments = stored_values(c.map, c.params.format == 0 ? b : quantised_from_moments(b));
 }

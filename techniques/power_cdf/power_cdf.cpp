@@ -14,7 +14,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_filter(fields, p.filtering);
+    parts::describe_filter(fields, p.filtering, parts::Averages::fixed_windows);
     fields.real("plane_bias", p.plane_bias, {0, 4}, "half windows",
         "A receiver is moved towards the light by the depth that its plane gains from the window's centre to its rim, times this.");
     fields.real(
@@ -22,13 +22,6 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/power_cdf/power_cdf_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         parts::FilteredMap map = parts::draw_filtered_map(passes, frame, params.filtering,
@@ -39,11 +32,9 @@ private:
                 }});
         const gpu::ImageId range = parts::window_min_max(passes, map.values, params.filtering.kernel);
         map.constants.params.bias += params.plane_bias * 0.5f * float(params.filtering.kernel);
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params},
+        parts::resolve_filtered(passes, frame, map, "techniques/power_cdf/power_cdf_resolve.frag", ResolveConstants{map.constants, params},
             {gpu::Binding(range, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -59,7 +50,7 @@ const gnomon::shadow::TechniqueInfo technique_power_cdf = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::power_cdf::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::power_cdf::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::power_cdf::Method>();
     },
 };

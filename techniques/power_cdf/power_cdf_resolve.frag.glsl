@@ -7,7 +7,7 @@
 #include "shaders/chebyshev.glsl"
 #include "techniques/power_cdf/power_cdf.glsl"
 
-layout(set = 0, binding = 3) uniform sampler2DArray range_image;
+layout(set = 0, binding = 4) uniform sampler2DArray range_image;
 
 void main()
 {

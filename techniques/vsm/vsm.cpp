@@ -23,23 +23,14 @@ void describe(Params& p, Fields& fields)
 }
 
 class Method final : public TechniqueWith<Params> {
-public:
-    explicit Method(gpu::Device& device)
-        : resolve_(device.raster_program("shaders/fullscreen.vert", "techniques/vsm/vsm_resolve.frag"))
-    {
-    }
-
-private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         const parts::FilteredMap map = parts::draw_filtered_map(passes, frame, params.filtering,
             {.shader = "techniques/vsm/vsm_values.frag", .format = VK_FORMAT_R32G32_SFLOAT, .constants = [&](const FilterValues& layer) {
                  return ValuesConstants{layer, params};
              }});
-        parts::resolve_filtered(passes, frame, map, resolve_, ResolveConstants{map.constants, params});
+        parts::resolve_filtered(passes, frame, map, "techniques/vsm/vsm_resolve.frag", ResolveConstants{map.constants, params});
     }
-
-    const gpu::Program& resolve_;
 };
 
 } // namespace
@@ -55,7 +46,7 @@ const gnomon::shadow::TechniqueInfo technique_vsm = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::vsm::describe); },
-    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
-        return std::make_unique<gnomon::techniques::vsm::Method>(device);
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::vsm::Method>();
     },
 };

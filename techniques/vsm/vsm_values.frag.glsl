@@ -11,9 +11,9 @@ void main()
 {
     const ivec2 texel = ivec2(gl_FragCoord.xy);
     const float t = centred_depth(c.map, texel);
-    moments = vec2(t, t * t);
-    if (c.params.slope_moment == 0) return;
+    vec2 m = vec2(t, t * t);
     // A texel as a patch of a plane: with a standard deviation of half a texel, E[x^2] = 1/4 (Lauritzen 2007).
-    const vec2 slope = centred_slope(c.map, texel);
-    moments.y += 0.25 * dot(slope, slope);
+    const vec2 slope = c.params.slope_moment != 0 ? centred_slope(c.map, texel) : vec2(0.0);
+    m.y += 0.25 * dot(slope, slope);
+    moments = stored_values(c.map, m.xyxy).xy;
 }

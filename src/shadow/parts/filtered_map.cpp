@@ -2,13 +2,32 @@
 #include "shadow/parts/filtered_map.h"
 
 #include "shadow/light_constants.h"
+#include "shadow/parts/pyramid.h"
+#include "shadow/parts/summed_area_table.h"
 #include "shadow/parts/window.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace gnomon::shadow::parts {
 
 namespace {
 
-gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const ValuesPass& pass)
+int channels_of(VkFormat format)
+{
+    switch (format) {
+    case VK_FORMAT_R32_SFLOAT:
+        return 1;
+    case VK_FORMAT_R32G32_SFLOAT:
+    case VK_FORMAT_R16G16_SFLOAT:
+    case VK_FORMAT_R16G16_UNORM:
+        return 2;
+    default:
+        return 4;
+    }
+}
+
+gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shaders::FilterParams& params, const ValuesPass& pass)
 {
     const gpu::ImageDesc depth = passes.desc(map.depth);
     const gpu::ImageId values = passes.transient(
@@ -19,7 +38,7 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const Value
         out.program = &passes.device().raster_program("shaders/fullscreen.vert", pass.shader);
         out.bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
         out.bindings.insert(out.bindings.end(), pass.more.begin(), pass.more.end());
-        out.constants = pass.constants({map.constants.layers[layer], int(layer)});
+        out.constants = pass.constants({map.constants.layers[layer], int(layer), params.prefilter});
         for (int group = 0; group < pass.groups; ++group) {
             gpu::ColorTarget target{values, gpu::Load::discard};
             target.layer = layer * uint32_t(pass.groups) + uint32_t(group);
@@ -33,14 +52,19 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const Value
 
 } // namespace
 
-void describe_filter(Fields& fields, shaders::FilterParams& p)
+void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages)
 {
     fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
     fields.choice(
         "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
     fields.integer("kernel", p.kernel, {1, 127}, "texels", "Width of the filter window.");
-    fields.choice("prefilter", p.prefilter, {"box", "gaussian"},
-        "How windows are averaged: all texels alike, in constant time; or under a Gaussian of kernel / 6, in time linear in the width.");
+    std::vector<std::string> ways = {"box", "gaussian", "mips", "sums"};
+    ways.resize(averages == Averages::all ? 4 : averages == Averages::no_sums ? 3 : 2);
+    std::string help
+        = "How windows are averaged: `box`, all texels alike in constant time; `gaussian` of kernel / 6, in time linear in the width";
+    if (averages != Averages::fixed_windows) help += "; `mips`, boxes, and mips of them where a pixel covers more";
+    if (averages == Averages::all) help += "; `sums`, a summed-area table, windows as wide as the kernel or the pixel";
+    fields.choice("prefilter", p.prefilter, ways, (help + ".").c_str());
     fields.real(
         "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
 }
@@ -61,23 +85,36 @@ FilteredMap filter_map(
 {
     FilteredMap out;
     out.map = map;
-    out.values = make_values(passes, out.map, pass);
-    out.means = pass.average                     ? pass.average(passes, out.values, params.kernel)
-        : params.prefilter == PREFILTER_GAUSSIAN ? window_gaussian(passes, out.values, params.kernel)
-                                                 : window_mean(passes, out.values, params.kernel);
+    out.values = make_values(passes, map, params, pass);
     out.constants = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants,
         params, pass.groups, params.kernel % 2 == 0 ? 0.5f : 0.0f};
+    out.means = out.values;
+    out.sums = passes.transient({VK_FORMAT_R32_UINT, {1, 1}, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "no sums"});
+    if (params.prefilter == PREFILTER_SUMS) {
+        // windows grow with a pixel's footprint up to this width, to which the integers' precision is fitted
+        out.constants.widest = std::min(std::max(2.0f * float(params.kernel), 64.0f), float(params.map_size));
+        const int bits = std::min(integer_sum_bits(std::pow(out.constants.widest, 2.0)), 24);
+        out.constants.sum_step = integer_sum_step(bits);
+        out.sums = build_integer_sums(passes, out.values, channels_of(pass.format), bits);
+    } else {
+        passes.clear(out.sums, {});
+        const auto average = pass.average ? pass.average : params.prefilter == PREFILTER_GAUSSIAN ? window_gaussian : window_mean;
+        out.means = average(passes, out.values, params.kernel, params.prefilter == PREFILTER_MIPS);
+    }
+    if (params.prefilter == PREFILTER_MIPS) fill_mean_pyramid(passes, out.means);
     return out;
 }
 
-void resolve_filtered(gpu::PassList& passes, const Frame& frame, const FilteredMap& map, const gpu::Program& program,
-    gpu::Constants constants, std::vector<gpu::Binding> more)
+void resolve_filtered(gpu::PassList& passes, const Frame& frame, const FilteredMap& map, std::string_view shader, gpu::Constants constants,
+    std::vector<gpu::Binding> more)
 {
     gpu::FullscreenPass pass;
     pass.name = "resolve";
-    pass.program = &program;
+    const gpu::SpecConstant spec[] = {{0, uint32_t(map.constants.params.prefilter)}};
+    pass.program = &passes.device().raster_program("shaders/fullscreen.vert", shader, spec);
     pass.bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
-        gpu::Binding(map.means, gpu::Use::sample, gpu::Sampler::linear_clamp).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
+        gpu::Binding(map.means, gpu::Use::sample, gpu::Sampler::linear_clamp).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+        gpu::Binding(map.sums, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
     pass.bindings.insert(pass.bindings.end(), more.begin(), more.end());
     pass.constants = std::move(constants);
     pass.colors = {{frame.output}};

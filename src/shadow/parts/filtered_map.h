@@ -13,23 +13,29 @@
 // (shaders/filter_resolve.glsl).
 namespace gnomon::shadow::parts {
 
+/// Which ways of averaging a technique's values bear: all, those without subtraction (values over many orders of magnitude), or windows
+/// of one width only.
+enum class Averages { all, no_sums, fixed_windows };
+
 /// Describes the shared parameters.
-void describe_filter(Fields&, shaders::FilterParams&);
+void describe_filter(Fields&, shaders::FilterParams&, Averages = Averages::all);
 
 struct ValuesPass {
     std::string shader; ///< fragment: values of one texel, one output a group
-    VkFormat format = VK_FORMAT_R32G32_SFLOAT;
+    VkFormat format = VK_FORMAT_R32G32_SFLOAT; ///< of one, two or four channels
     int groups = 1; ///< images of values for each layer of the map, at most `outputs`
     int outputs = 1; ///< that the shader declares, at most 8
     std::vector<gpu::Binding> more{}; ///< of the shader, after its depth map
     std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer
-    gpu::ImageId (*average)(gpu::PassList&, gpu::ImageId values, int width) = nullptr; ///< instead of the mean that FilterParams asks for
+    gpu::ImageId (*average)(gpu::PassList&, gpu::ImageId values, int width, bool with_mips)
+        = nullptr; ///< instead of the mean that FilterParams asks for
 };
 
 struct FilteredMap {
     LightMap map;
     gpu::ImageId values; ///< array: layer of the map * groups + group
     gpu::ImageId means; ///< the same, averaged
+    gpu::ImageId sums; ///< their summed-area table, where that was asked for
     shaders::FilterResolve constants; ///< for shaders/filter_resolve.glsl
 };
 
@@ -40,8 +46,8 @@ FilteredMap draw_filtered_map(gpu::PassList&, const Frame&, const shaders::Filte
 LightMap draw_map_to_filter(gpu::PassList&, const Frame&, const shaders::FilterParams&);
 FilteredMap filter_map(gpu::PassList&, const Frame&, const LightMap&, const shaders::FilterParams&, const ValuesPass&);
 
-/// The full-screen pass that writes frame.output. Bindings 0 to 2 are those of shaders/filter_resolve.glsl; `more` follow.
+/// The full-screen pass that writes frame.output. Bindings 0 to 3 are those of shaders/filter_resolve.glsl; `more` follow.
 void resolve_filtered(
-    gpu::PassList&, const Frame&, const FilteredMap&, const gpu::Program&, gpu::Constants, std::vector<gpu::Binding> more = {});
+    gpu::PassList&, const Frame&, const FilteredMap&, std::string_view shader, gpu::Constants, std::vector<gpu::Binding> more = {});
 
 } // namespace gnomon::shadow::parts

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/window.h"
 
+#include "shadow/parts/pyramid.h"
 #include "src/shadow/parts/gaussian.shared.h"
 
 #include <algorithm>
@@ -12,38 +13,38 @@ namespace {
 
 enum Operation : uint32_t { mean, min_max, log_mean_exp };
 
-gpu::ImageId like(gpu::PassList& passes, gpu::ImageId image, const char* name)
+gpu::ImageId like(gpu::PassList& passes, gpu::ImageId image, bool with_mips)
 {
     gpu::ImageDesc desc = passes.desc(image);
-    desc.mips = 1, desc.name = name;
+    desc.mips = with_mips ? pyramid_levels(desc.size) : 1, desc.name = "window";
     return passes.transient(desc);
 }
 
-gpu::ImageId slide(gpu::PassList& passes, gpu::ImageId from, int width, uint32_t axis, Operation operation)
+gpu::ImageId slide(gpu::PassList& passes, gpu::ImageId from, int width, uint32_t axis, Operation operation, bool with_mips)
 {
     const gpu::ImageDesc desc = passes.desc(from);
-    const gpu::ImageId to = like(passes, from, "window");
+    const gpu::ImageId to = like(passes, from, with_mips);
     const gpu::SpecConstant constants[] = {{0, uint32_t(width)}, {1, axis}, {2, operation}};
     const uint32_t x = uint32_t(desc.size.width), y = uint32_t(desc.size.height), n = uint32_t(width);
     gpu::ComputePass pass;
     pass.name = axis == 0 ? "window along x" : "window along y";
     pass.program = &passes.device().compute_program("src/shadow/parts/window.comp", constants);
     pass.bindings = {gpu::Binding(from, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY).mips(0, 1),
-        gpu::Binding(to, gpu::Use::store).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
+        gpu::Binding(to, gpu::Use::store).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY).mips(0, 1)};
     pass.threads = axis == 0 ? gpu::Threads{y, (x + n - 1) / n, desc.layers} : gpu::Threads{x, (y + n - 1) / n, desc.layers};
     passes.compute(std::move(pass));
     return to;
 }
 
-gpu::ImageId slide_both(gpu::PassList& passes, gpu::ImageId from, int width, Operation operation)
+gpu::ImageId slide_both(gpu::PassList& passes, gpu::ImageId from, int width, Operation operation, bool with_mips = false)
 {
-    if (width <= 1) return from;
-    return slide(passes, slide(passes, from, width, 0, operation), width, 1, operation);
+    if (width <= 1 && !with_mips) return from;
+    return slide(passes, slide(passes, from, width, 0, operation, false), width, 1, operation, with_mips);
 }
 
-gpu::ImageId weigh(gpu::PassList& passes, gpu::ImageId from, const std::vector<float>& weights, int axis)
+gpu::ImageId weigh(gpu::PassList& passes, gpu::ImageId from, const std::vector<float>& weights, int axis, bool with_mips)
 {
-    const gpu::ImageId to = like(passes, from, "window");
+    const gpu::ImageId to = like(passes, from, with_mips);
     shaders::GaussianConstants constants{};
     constants.width = int(weights.size()), constants.axis = axis;
     std::ranges::copy(weights, constants.weights);
@@ -62,13 +63,16 @@ gpu::ImageId weigh(gpu::PassList& passes, gpu::ImageId from, const std::vector<f
 
 } // namespace
 
-gpu::ImageId window_mean(gpu::PassList& passes, gpu::ImageId values, int width) { return slide_both(passes, values, width, mean); }
+gpu::ImageId window_mean(gpu::PassList& passes, gpu::ImageId values, int width, bool with_mips)
+{
+    return slide_both(passes, values, width, mean, with_mips);
+}
 
 gpu::ImageId window_min_max(gpu::PassList& passes, gpu::ImageId pairs, int width) { return slide_both(passes, pairs, width, min_max); }
 
-gpu::ImageId window_log_mean_exp(gpu::PassList& passes, gpu::ImageId logs, int width)
+gpu::ImageId window_log_mean_exp(gpu::PassList& passes, gpu::ImageId logs, int width, bool with_mips)
 {
-    return slide_both(passes, logs, width, log_mean_exp);
+    return slide_both(passes, logs, width, log_mean_exp, with_mips);
 }
 
 std::vector<float> gaussian_weights(int width)
@@ -85,11 +89,11 @@ std::vector<float> gaussian_weights(int width)
     return out;
 }
 
-gpu::ImageId window_gaussian(gpu::PassList& passes, gpu::ImageId values, int width)
+gpu::ImageId window_gaussian(gpu::PassList& passes, gpu::ImageId values, int width, bool with_mips)
 {
-    if (width <= 1) return values;
+    if (width <= 1 && !with_mips) return values;
     const std::vector<float> weights = gaussian_weights(std::min(width, GAUSSIAN_MAX_WIDTH));
-    return weigh(passes, weigh(passes, values, weights, 0), weights, 1);
+    return weigh(passes, weigh(passes, values, weights, 0, false), weights, 1, with_mips);
 }
 
 } // namespace gnomon::shadow::parts
