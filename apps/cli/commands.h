@@ -54,7 +54,7 @@ struct Compare {
     Common common;
     Picture picture;
     std::vector<std::string> techniques;
-    std::string output;
+    std::string output, reference;
     int truth_samples = 256, repeats = 3;
 };
 int compare(const Compare&);

@@ -20,6 +20,7 @@ int compare(const Compare& options)
     const lab::Comparison comparison = lab::compare(*device,
         {.stage = stage_options(options.picture),
             .techniques = options.techniques,
+            .reference = options.reference,
             .truth_samples = options.truth_samples,
             .repeats = options.repeats,
             .folder = folder});

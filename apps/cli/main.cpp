@@ -110,6 +110,8 @@ int run(int argc, char** argv)
             "--techniques,--technique", compare.techniques, "Ids, with parameters after colons: shadow_map,shadow_map:map_size=2048:pcf=5")
         ->delimiter(',')
         ->required();
+    compare_app->add_option("--reference", compare.reference,
+        "A technique, with parameters after colons, that filtering is measured against: adds filter_mae and the like");
     compare_app->add_option("-o,--output", compare.output, "Folder for pictures and results.json (default: out/compare-SCENE)");
     compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")
         ->check(CLI::Range(1, 1 << 20))

@@ -45,6 +45,7 @@ public:
     {
         for (const std::string& text : options.techniques) choices_.push_back(parse_choice(text));
         if (choices_.empty()) base::fail("no technique to compare; name some with --techniques a,b (see `gnomon list`)");
+        if (!options.reference.empty()) parse_choice(options.reference);
         out_.device = device.info().name, out_.driver = device.info().driver, out_.commit = commit();
     }
 
@@ -80,6 +81,7 @@ private:
     {
         references_.clear();
         truth_lit_ = {};
+        if (!options_.reference.empty()) filter_ = filter_reference(device_, scene_, stage_, options_.reference);
         progress.advance();
         for (const Choice& choice : choices_) {
             Run run = new_run(stage_, choice, light_);
@@ -101,7 +103,7 @@ private:
         const Rendered rendered = render(
             device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
-        score(stage_, light, truth, rendered, run, &heat_map);
+        score(stage_, light, truth, rendered, run, {.filter = filter_.choice.empty() ? nullptr : &filter_, .heat_map = &heat_map});
         if (truth_lit_.empty()) {
             truth_lit_ = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
             write("truth", truth_lit_, base::Encoding::srgb);
@@ -133,6 +135,7 @@ private:
     std::vector<Choice> choices_;
     std::map<truth::Quantity, truth::Reference> references_;
     base::Picture truth_lit_;
+    FilterReference filter_; ///< of the present light
     std::string light_;
     Comparison out_;
 };

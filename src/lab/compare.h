@@ -16,6 +16,7 @@ namespace gnomon::lab {
 struct CompareOptions {
     StageOptions stage;
     std::vector<std::string> techniques; ///< parse_choice
+    std::string reference; ///< parse_choice: the technique that filtering is measured against; empty = none
     int truth_samples = 256;
     int repeats = 3; ///< timed frames after one warm-up
     uint32_t frame_index = 0;
@@ -32,6 +33,8 @@ struct Run {
     double technique_ms = 0, technique_deviation = 0;
     uint64_t bytes = 0;
     std::map<std::string, double> metrics;
+    std::string reference; ///< the choice behind the filter metrics; empty = they were not measured
+    std::string reference_refused; ///< why, although one was given
     size_t excluded_pixels = 0; ///< raster and rays see different surfaces there
     size_t scored_pixels = 0;
     int truth_samples = 0;
@@ -59,13 +62,27 @@ truth::Quantity truth_quantity(const shadow::TechniqueInfo&);
 /// What `score` needs from render().
 inline const std::set<std::string> scored_aovs = {"depth", "geometric_normal"};
 
+/// The image of a reference technique for a stage's first light.
+struct FilterReference {
+    std::string choice; ///< as parse_choice reads it
+    base::Picture image;
+    std::string refused; ///< why this device or light has none; the image is then empty
+};
+FilterReference filter_reference(gpu::Device&, shadow::SceneGpu&, const Stage&, const std::string& choice);
+
+struct ScoreOptions {
+    const FilterReference* filter = nullptr; ///< adds the filter metrics, where its image has the technique's channels
+    base::Picture* heat_map = nullptr;
+    std::vector<uint8_t>* edge_band = nullptr; ///< kept between scores of one stage and light: empty before the first
+};
+
 /// Measures one technique's first image against the truth of its light. Scored are the pixels where raster and rays see the same
 /// surface: the same primitive, or coincident ones (depth within 1e-4 of its value, normals within 1 degree: a wall modelled twice,
 /// the two triangles of a quad at their shared edge). The others are counted as excluded.
 /// For hard lights `wrong_outside_band` counts wrong pixels with no true edge within half a pixel: the truth is traced again at
 /// the corners and edge centres of the pixels and close to their centres; receivers whose plane holds the light to within 1e-3 radians
 /// count as edges (their orientation is decided by the last bits).
-void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, Run& out, base::Picture* heat_map = nullptr);
+void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, Run& out, const ScoreOptions& = {});
 
 nlohmann::ordered_json results_json(const Comparison&);
 std::string results_table(const Comparison&); ///< for a terminal

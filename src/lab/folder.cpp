@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <optional>
 
 namespace gnomon::lab {
 
@@ -40,12 +41,13 @@ void known_keys(const Json& object, const std::vector<std::string>& keys, const 
 
 TechniqueScene parse(const Json& json, const fs::path& file)
 {
-    known_keys(json, {"scene", "detail", "camera", "lights", "params", "truth_samples", "promise", "golden_tolerance"}, file);
+    known_keys(json, {"scene", "detail", "camera", "lights", "params", "truth_samples", "promise", "golden_tolerance", "reference"}, file);
     TechniqueScene out;
     out.scene = json.at("scene").get<std::string>();
     out.detail = json.value("detail", 1.0);
     out.camera = json.value("camera", "");
     out.truth_samples = json.value("truth_samples", 256);
+    out.reference = json.value("reference", "");
     if (json.contains("params")) out.params = json["params"].dump();
     for (const auto& [kind, light] : json.at("lights").items()) out.lights[kind] = light.get<std::string>();
     for (const auto& [kind, bounds] : json.at("promise").items())
@@ -110,7 +112,9 @@ PromiseReport check_promises(
         const truth::Reference truth = truth::reference(
             stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info), truth_cache);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
-        score(stage, stage.lights.front(), truth, rendered, run);
+        std::optional<FilterReference> filter;
+        if (!own.reference.empty()) filter = filter_reference(device, scene, stage, own.reference);
+        score(stage, stage.lights.front(), truth, rendered, run, {.filter = filter ? &*filter : nullptr});
         const auto promise = own.promise.find(kind);
         if (promise == own.promise.end())
             base::fail("{}: no promise for {} lights, which the technique claims", (folder / "scene.json").string(), kind);

@@ -18,13 +18,14 @@ namespace gnomon::lab {
 std::filesystem::path project_root();
 
 /// techniques/<id>/scene.json: {"scene", "detail", "camera", "lights": {kind: light}, "params": {...}, "truth_samples",
-/// "promise": {kind: {metric: bound}}, "golden_tolerance": {"pixels", "mean", "reason"}}. Unknown keys are errors.
+/// "promise": {kind: {metric: bound}}, "reference", "golden_tolerance": {"pixels", "mean", "reason"}}. Unknown keys are errors.
 struct TechniqueScene {
     std::string scene, camera;
     double detail = 1.0;
     std::map<std::string, std::string> lights; ///< by kind: what scene::parse_light reads
     std::string params = "{}"; ///< JSON
     int truth_samples = 256;
+    std::string reference; ///< parse_choice: the technique behind the filter metrics; empty = none
     std::map<std::string, std::map<std::string, double>> promise; ///< by kind of light: metric -> largest value
     double golden_pixels = 0.001, golden_mean = 1.0 / 2550.0; ///< see compare_golden
 };

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gnomon::lab {
 
@@ -60,8 +61,10 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
         const truth::Reference truth
             = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info));
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5, .aovs = scored_aovs});
+        std::optional<FilterReference> filter;
+        if (!own.reference.empty()) filter = filter_reference(device, scene, stage, own.reference);
         base::Picture heat;
-        score(stage, stage.lights.front(), truth, rendered, run, &heat);
+        score(stage, stage.lights.front(), truth, rendered, run, {.filter = filter ? &*filter : nullptr, .heat_map = &heat});
         add_times(run, rendered);
         comparison.runs.push_back(std::move(run));
         if (!panels.empty()) continue;

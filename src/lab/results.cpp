@@ -23,6 +23,8 @@ nlohmann::ordered_json run_json(const Run& run)
     out["technique_deviation"] = run.technique_deviation;
     out["bytes"] = run.bytes;
     out["metrics"] = run.metrics;
+    if (!run.reference.empty()) out["reference"] = run.reference;
+    if (!run.reference_refused.empty()) out["reference_refused"] = run.reference_refused;
     out["scored_pixels"] = run.scored_pixels;
     out["excluded_pixels"] = run.excluded_pixels;
     out["truth"] = {{"samples", run.truth_samples}, {"noise", run.truth_noise}};
@@ -33,6 +35,27 @@ std::string cell(const Run& run, const char* metric, const char* format)
 {
     const auto found = run.metrics.find(metric);
     return found == run.metrics.end() ? "-" : fmt::format(fmt::runtime(format), found->second);
+}
+
+/// The differences to the reference technique, where one was given.
+std::string filter_table(const Comparison& comparison)
+{
+    std::string out;
+    for (const Run& run : comparison.runs) {
+        if (run.reference.empty() && run.reference_refused.empty()) continue;
+        if (out.empty())
+            out = fmt::format("\n{:<20} {:<14} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", "technique", "light", "mean abs", "rms", "max",
+                "lighter", "darker", "against");
+        if (run.reference.empty()) {
+            out += fmt::format("{:<20} {:<14} not measured: {}\n", run.technique, run.light, run.reference_refused);
+            continue;
+        }
+        out += fmt::format("{:<20} {:<14}", run.technique, run.light);
+        for (const char* metric : {"filter_mae", "filter_rms", "filter_max", "filter_leak", "filter_dark"})
+            out += fmt::format(" {:>9}", cell(run, metric, "{:.5f}"));
+        out += fmt::format("  {}\n", run.reference);
+    }
+    return out;
 }
 
 } // namespace
@@ -59,7 +82,7 @@ std::string results_table(const Comparison& comparison)
             cell(run, "mae", "{:.5f}"), cell(run, "rms", "{:.5f}"), cell(run, "bias", "{:+.5f}"), cell(run, "flip", "{:.4f}"),
             run.technique_ms, run.technique_deviation, double(run.bytes) / (1024.0 * 1024.0));
     }
-    return out;
+    return out + filter_table(comparison);
 }
 
 } // namespace gnomon::lab

@@ -3,6 +3,7 @@
 
 #include "metrics/metrics.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -55,6 +56,28 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
     return mask;
 }
 
+/// Without the fourth channel of transmittance, which means nothing.
+base::Picture scored_channels(const base::Picture& image)
+{
+    if (image.channels != 4) return image;
+    base::Picture out(image.size, 3);
+    for (size_t i = 0; i < image.size.area(); ++i) std::copy_n(&image.values[i * 4], 3, &out.values[i * 3]);
+    return out;
+}
+
+void score_filter(const FilterReference& filter, const base::Picture& test, const std::vector<uint8_t>& mask, Run& out)
+{
+    out.reference_refused = filter.refused;
+    if (filter.image.empty()) return;
+    if (filter.image.channels != test.channels) {
+        out.reference_refused = fmt::format("{} writes another kind of image than {}", filter.choice, out.technique);
+        return;
+    }
+    const base::Picture no_variance;
+    out.metrics.merge(metrics::measure_filter({test, filter.image, no_variance, mask}));
+    out.reference = filter.choice;
+}
+
 } // namespace
 
 Run new_run(const Stage& stage, const Choice& choice, const std::string& light)
@@ -76,16 +99,20 @@ truth::Quantity truth_quantity(const shadow::TechniqueInfo& info)
     return info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
 }
 
-void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, Run& out,
-    base::Picture* heat_map)
+FilterReference filter_reference(gpu::Device& device, shadow::SceneGpu& scene, const Stage& stage, const std::string& choice)
 {
-    const base::Picture& image = rendered.images.front();
+    const Choice parsed = parse_choice(choice);
+    FilterReference out{choice, {}, shadow::refusal(*parsed.info, device, stage.lights.front())};
+    if (!out.refused.empty()) return out;
+    out.image = scored_channels(render(device, scene, stage, parsed, {.lit = false}).images.front());
+    return out;
+}
+
+void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, Run& out,
+    const ScoreOptions& options)
+{
     const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
-    base::Picture test = image;
-    if (test.channels == 4 && truth.visibility.mean.channels == 3) {
-        test = base::Picture(image.size, 3);
-        for (size_t i = 0; i < mask.size(); ++i) std::copy_n(&image.values[i * 4], 3, &test.values[i * 3]);
-    }
+    const base::Picture test = scored_channels(rendered.images.front());
     const bool hard = !light.soft();
     const metrics::Comparison comparison{test, truth.visibility.mean, truth.visibility.variance, mask, hard};
     out.metrics = metrics::measure(comparison);
@@ -94,13 +121,16 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
     if (hard && truth.visibility.mean.channels == 1 && out.scored_pixels > 0) {
         size_t outside = 0;
         if (out.metrics["wrong_pixels"] > 0) {
-            const std::vector<uint8_t> band = edge_band(stage, light, truth);
+            std::vector<uint8_t> own;
+            std::vector<uint8_t>& band = options.edge_band ? *options.edge_band : own;
+            if (band.empty()) band = edge_band(stage, light, truth);
             for (size_t i = 0; i < mask.size(); ++i)
                 outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
         }
         out.metrics["wrong_outside_band"] = double(outside) / double(out.scored_pixels);
     }
-    if (heat_map) *heat_map = metrics::signed_heat_map(comparison);
+    if (options.filter) score_filter(*options.filter, test, mask, out);
+    if (options.heat_map) *options.heat_map = metrics::signed_heat_map(comparison);
 }
 
 } // namespace gnomon::lab

@@ -44,6 +44,11 @@ const std::vector<Metric>& metrics();
 /// All metrics that apply.
 std::map<std::string, double> measure(const Comparison&);
 
+/// The same pixels against a reference technique's image, which stands in the place of `truth`: the error of filtering alone.
+/// filter_mae, filter_rms, filter_max, filter_bias, filter_leak (mean of what is lighter), filter_dark (of what is darker).
+const std::vector<Metric>& filter_metrics();
+std::map<std::string, double> measure_filter(const Comparison&);
+
 /// FLIP (Andersson et al. 2020, LDR): mean of the error map; pictures are display-referred linear RGB in [0,1].
 double flip(const base::Picture& test, const base::Picture& truth, base::Picture* error_map = nullptr, float pixels_per_degree = 67.0f);
 

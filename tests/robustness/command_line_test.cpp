@@ -33,6 +33,8 @@ TEST(CommandLine, UnknownNamesListTheNearOnes)
     expect_all({
         {{"render", "balls", "--technique", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"compare", "balls", "--techniques", "ray_traced,shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
+        {{"compare", "balls", "--techniques", "shadow_map", "--reference", "shadow_mop"}, 1,
+            {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"bench", "balls", "--techniques", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"picture", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"bless", "shadow_mop", "--because", "x"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},

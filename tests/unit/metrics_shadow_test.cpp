@@ -203,3 +203,30 @@ TEST(Metrics, unlike_pictures_are_refused)
     EXPECT_THROW(measure(half(20), half(20), true, std::vector<uint8_t>(3)), base::Error);
     EXPECT_THROW(metrics::signed_heat_map({half(20), Picture({8, 8}, 1), no_variance, all(), true}), base::Error);
 }
+
+TEST(FilterMetrics, lighter_and_darker_parts_add_up)
+{
+    const Picture reference = half(32, 16.0f);
+    Picture test = reference;
+    test.at(3, 0) += 0.5f; // dark there
+    test.at(60, 0) -= 0.25f, test.at(61, 0) -= 0.25f; // lit there
+    std::vector<uint8_t> mask = all();
+    for (size_t i = size.area() / 2; i < mask.size(); ++i) mask[i] = 0;
+    test.values.back() = 0.0f; // not scored
+    const double scored = double(size.area() / 2);
+    const auto m = metrics::measure_filter({test, reference, no_variance, mask});
+    EXPECT_EQ(m.size(), metrics::filter_metrics().size());
+    EXPECT_NEAR(m.at("filter_leak"), 0.5 / scored, 1e-9);
+    EXPECT_NEAR(m.at("filter_dark"), 0.5 / scored, 1e-9);
+    EXPECT_NEAR(m.at("filter_mae"), 1.0 / scored, 1e-9);
+    EXPECT_NEAR(m.at("filter_bias"), 0.0, 1e-9);
+    EXPECT_NEAR(m.at("filter_rms"), std::sqrt(0.375 / scored), 1e-9);
+    EXPECT_NEAR(m.at("filter_max"), 0.5, 1e-6);
+}
+
+TEST(FilterMetrics, a_value_that_is_not_finite_is_the_worst)
+{
+    Picture test = half(32);
+    test.values[0] = std::numeric_limits<float>::quiet_NaN(); // dark in the reference
+    EXPECT_EQ(metrics::measure_filter({test, half(32), no_variance, all()}).at("filter_leak"), 1.0 / double(size.area()));
+}
