@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each texel around a receiver is compared with. One depth for all of a wide kernel makes a tilted receiver shadow itself; its own
+// plane, followed to every texel's centre, does not.
+#ifndef GNOMON_RECEIVER_PLANE_GLSL
+#define GNOMON_RECEIVER_PLANE_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/light.glsl"
+#include "shaders/light_map.glsl"
+
+// The depth to compare with at d texels from `at` is z + dot(slope, d) + cone * |d|.
+struct ReceiverPlane {
+    vec2 at; // where the receiver falls, in texels
+    float z; // stored depth there, with all margins
+    vec2 slope; // change of stored depth from texel to texel
+    float cone;
+};
+
+// Change of stored depth by one metre of depth.
+float stored_per_metre(LightMapLayer layer, float depth)
+{
+    const float range = layer.far - layer.near;
+    return layer.perspective != 0 ? layer.near * layer.far / (range * depth * depth) : 1.0 / range;
+}
+
+// dz/du and dz/dv along the plane through p with normal n (unit). The map is projective, and takes planes to planes: the quotient of
+// differentials at p holds all over the plane, for perspective layers too. It is what Isidoro (2006) takes from screen-space
+// derivatives, which go wrong wherever 2 x 2 pixels see two surfaces. Planes that hold the light's ray give large finite numbers.
+vec2 receiver_slope(LightMapLayer layer, vec3 p_world, vec3 n)
+{
+    vec3 t, b;
+    orthonormal_basis(n, t, b);
+    const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
+    const vec4 ht = layer.map_from_world * vec4(t, 0.0), hb = layer.map_from_world * vec4(b, 0.0);
+    // d(h / w) = (dh w - h dw) / w^2; the powers of w cancel in the quotients
+    const vec3 x = ht.xyz * h.w - h.xyz * ht.w, y = hb.xyz * h.w - h.xyz * hb.w;
+    const float det = x.x * y.y - x.y * y.x;
+    return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
+}
+
+// One depth for all texels.
+ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapPoint m)
+{
+    return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0);
+}
+
+// Burley's bias cone (2006): towards the light by `opening` metres of depth for each metre between the tap and the receiver.
+ReceiverPlane cone_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, float opening)
+{
+    ReceiverPlane r = flat_plane(layer, size, depth_step, m);
+    r.cone = opening * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    return r;
+}
+
+// The receiver's own plane. Texels are compared at their centres, where the rasteriser sampled the caster, so that neither the kernel's
+// width nor a nearest tap's half texel needs a bias. What is left is margin for two roundings:
+//   rasterisers snap vertices to 1/256 texel, which shifts a plane's depth by that part of its slope (both ends of an edge: 1/128);
+//   the G-buffer's normal is off by up to 6e-5 rad, and d tan(a) = (1 + tan^2 a) da, at the kernel's rim `radius` texels away.
+// `limit` holds the slope (metres of depth a metre) where the light grazes: beyond it a texel would reach past all casters.
+ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, vec3 p_world, vec3 n, float radius, float limit)
+{
+    ReceiverPlane r = flat_plane(layer, size, depth_step, m);
+    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth); // a texel's width as depth
+    vec2 tangent = receiver_slope(layer, p_world, n) / (size * texel);
+    tangent *= min(1.0, limit / max(length(tangent), 1e-20));
+    r.slope = tangent * texel;
+    r.z += texel * ((abs(tangent.x) + abs(tangent.y)) / 128.0 + 6e-5 * (1.0 + dot(tangent, tangent)) * radius);
+    return r;
+}
+
+#endif
