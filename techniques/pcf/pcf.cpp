@@ -38,8 +38,10 @@ void describe(Params& p, Fields& fields)
     fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
     fields.real(
         "bias_slope", p.bias_slope, {0, 8}, "", "slope: polygon offset, times the depth slope, times twice the filter's radius in texels.");
-    fields.real("bias_cone", p.bias_cone, {0, 64}, "", "cone: metres of depth for each metre between a tap and the receiver.");
-    fields.real("slope_limit", p.slope_limit, {0, 1000}, "", "receiver_plane: the steepest plane followed, metres of depth a metre.");
+    fields.real("bias_cone", p.bias_cone, {0, 64}, "",
+        "cone: metres of depth a metre between tap and receiver, where the receiver's own slope is less.");
+    fields.real(
+        "slope_limit", p.slope_limit, {0, 1000}, "", "receiver_plane, cone: the steepest receiver followed, metres of depth a metre.");
 }
 
 bool is_disk(const Params& p) { return p.form == PCF_POISSON || p.form == PCF_VOGEL; }

@@ -31,7 +31,7 @@ struct Params {
     int interleave DEFAULT(0);
     int adaptive DEFAULT(0);
     int window DEFAULT(0);
-    int bias DEFAULT(1);
+    int bias DEFAULT(2);
     float bias_constant DEFAULT(0.0f);
     float bias_slope DEFAULT(0.75f);
     float bias_cone DEFAULT(2.0f);

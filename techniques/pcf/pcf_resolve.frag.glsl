@@ -14,7 +14,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 
 layout(constant_id = 0) const int form = PCF_BOX;
 layout(constant_id = 1) const bool bilinear = true;
-layout(constant_id = 2) const int bias = PCF_BIAS_RECEIVER_PLANE;
+layout(constant_id = 2) const int bias = PCF_BIAS_CONE;
 layout(constant_id = 3) const int rotation = PCF_ROTATE_NONE;
 layout(constant_id = 4) const bool adaptive = false;
 layout(constant_id = 5) const bool footprint = false;
@@ -41,7 +41,8 @@ ReceiverPlane make_plane(LightMapLayer layer, Receiver r, MapPoint m, float radi
 {
     if (bias == PCF_BIAS_RECEIVER_PLANE)
         return receiver_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
-    if (bias == PCF_BIAS_CONE) return cone_plane(layer, c.map.size, c.map.depth_step, m, c.params.bias_cone);
+    if (bias == PCF_BIAS_CONE)
+        return cone_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit);
     return flat_plane(layer, c.map.size, c.map.depth_step, m);
 }
 

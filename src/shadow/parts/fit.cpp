@@ -53,7 +53,10 @@ shaders::LightMapLayer orthographic_layer(
     const int size = settings.size;
     const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * rim_factor(settings);
     const vec3 centre = receivers.centre();
-    const float slack = 1e-3f * std::max(casters.max.z - casters.min.z, 1e-3f);
+    // Depths are compared to millionths of the range, and positions round to millionths of the scene's width: a flat scene gets a range
+    // of a tenth of its width.
+    const float depth = casters.max.z - casters.min.z;
+    const float slack = std::max(1e-3f * depth, 0.5f * (0.1f * extent - depth));
     shaders::LightMapLayer layer{};
     layer.near = std::min(casters.min.z, receivers.min.z) - slack;
     layer.far = std::max(receivers.max.z, layer.near) + slack;
