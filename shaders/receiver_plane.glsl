@@ -7,6 +7,9 @@
 #include "shaders/light.glsl"
 #include "shaders/light_map.glsl"
 
+// Rasterisers snap vertices to 1/256 texel; with both ends of an edge, a plane's depth moves by 1/128 of its slope.
+#define PLANE_SNAP (1.0 / 128.0)
+
 // The depth to compare with at d texels from `at` is z + dot(slope, d) + cone * |d|.
 struct ReceiverPlane {
     vec2 at; // where the receiver falls, in texels
@@ -43,27 +46,37 @@ ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapP
     return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0);
 }
 
-// Burley's bias cone (2006): towards the light by `opening` metres of depth for each metre between the tap and the receiver.
-ReceiverPlane cone_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, float opening)
+// The slope of the plane through p in metres of depth a metre across, as the layer sees it: no longer than `limit`, which holds it where
+// the light grazes. Beyond it a texel would reach past all casters.
+vec2 receiver_tangent(LightMapLayer layer, float size, MapPoint m, vec3 p_world, vec3 n, float limit)
+{
+    const vec2 tangent
+        = receiver_slope(layer, p_world, n) / (size * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth));
+    return tangent * min(1.0, limit / max(length(tangent), 1e-20));
+}
+
+// Burley's bias cone (2006): towards the light by `opening` metres of depth for each metre between the tap and the receiver, and by no
+// less than the receiver's own slope, without which steep receivers shadow themselves.
+ReceiverPlane cone_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, vec3 p_world, vec3 n, float opening, float limit)
 {
     ReceiverPlane r = flat_plane(layer, size, depth_step, m);
-    r.cone = opening * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth); // a texel's width as depth
+    const float tangent = length(receiver_tangent(layer, size, m, p_world, n, limit));
+    r.cone = max(opening, tangent) * texel;
+    r.z += tangent * texel * PLANE_SNAP;
     return r;
 }
 
 // The receiver's own plane. Texels are compared at their centres, where the rasteriser sampled the caster, so that neither the kernel's
-// width nor a nearest tap's half texel needs a bias. What is left is margin for two roundings:
-//   rasterisers snap vertices to 1/256 texel, which shifts a plane's depth by that part of its slope (both ends of an edge: 1/128);
-//   the G-buffer's normal is off by up to 6e-5 rad, and d tan(a) = (1 + tan^2 a) da, at the kernel's rim `radius` texels away.
-// `limit` holds the slope (metres of depth a metre) where the light grazes: beyond it a texel would reach past all casters.
+// width nor a nearest tap's half texel needs a bias. What is left is margin for two roundings: of vertices (PLANE_SNAP), and of the
+// G-buffer's normal, off by up to 6e-5 rad: d tan(a) = (1 + tan^2 a) da, at the kernel's rim `radius` texels away.
 ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, vec3 p_world, vec3 n, float radius, float limit)
 {
     ReceiverPlane r = flat_plane(layer, size, depth_step, m);
-    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth); // a texel's width as depth
-    vec2 tangent = receiver_slope(layer, p_world, n) / (size * texel);
-    tangent *= min(1.0, limit / max(length(tangent), 1e-20));
+    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    const vec2 tangent = receiver_tangent(layer, size, m, p_world, n, limit);
     r.slope = tangent * texel;
-    r.z += texel * ((abs(tangent.x) + abs(tangent.y)) / 128.0 + 6e-5 * (1.0 + dot(tangent, tangent)) * radius);
+    r.z += texel * ((abs(tangent.x) + abs(tangent.y)) * PLANE_SNAP + 6e-5 * (1.0 + dot(tangent, tangent)) * radius);
     return r;
 }
 

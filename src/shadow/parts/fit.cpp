@@ -39,14 +39,24 @@ Bounds in_axes(const std::vector<vec3>& points, const mat4& axes)
     return out;
 }
 
-/// One orthographic layer around `receivers`; depth from the first caster to the last receiver.
-shaders::LightMapLayer orthographic_layer(const mat4& axes, const Bounds& receivers, const Bounds& casters, int size)
+/// How much wider a single layer is than its receivers: a rim, so that the outermost ones still have neighbours to filter.
+float rim_factor(const LightMapSettings& settings)
 {
-    // one texel of rim, so that the outermost receivers still have neighbours to filter
-    const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * float(size)
-        / float(std::max(size - 4, 1));
+    const float rim = std::max(2.0f, settings.guard_texels - 1.0f);
+    return float(settings.size) / std::max(float(settings.size) - 2.0f * rim, 1.0f);
+}
+
+/// One orthographic layer around `receivers`; depth from the first caster to the last receiver.
+shaders::LightMapLayer orthographic_layer(
+    const mat4& axes, const Bounds& receivers, const Bounds& casters, const LightMapSettings& settings)
+{
+    const int size = settings.size;
+    const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * rim_factor(settings);
     const vec3 centre = receivers.centre();
-    const float slack = 1e-3f * std::max(casters.max.z - casters.min.z, 1e-3f);
+    // Depths are compared to millionths of the range, and positions round to millionths of the scene's width: a flat scene gets a range
+    // of a tenth of its width.
+    const float depth = casters.max.z - casters.min.z;
+    const float slack = std::max(1e-3f * depth, 0.5f * (0.1f * extent - depth));
     shaders::LightMapLayer layer{};
     layer.near = std::min(casters.min.z, receivers.min.z) - slack;
     layer.far = std::max(receivers.max.z, layer.near) + slack;
@@ -98,7 +108,7 @@ void fit_directional(
         if (!seen.empty()) receivers = in_axes(seen, axes);
     }
     map.layer_count = 1;
-    map.layers[0] = orthographic_layer(axes, receivers, casters, settings.size);
+    map.layers[0] = orthographic_layer(axes, receivers, casters, settings);
 }
 
 void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
@@ -129,9 +139,8 @@ shaders::LightMap fit_light_map(
         float near, far;
         depth_range(bounds, spot->position, near, far);
         map.layer_count = 1, map.centre = spot->position;
-        const float rim = float(settings.size) / std::max(float(settings.size) - 4.0f, 1.0f);
-        map.layers[0] = perspective_layer(
-            light_axes(spot->position, spot->direction, vec3(0, 1, 0)), std::tan(spot->outer_angle) * rim, near, far, settings.size);
+        map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)),
+            std::tan(spot->outer_angle) * rim_factor(settings), near, far, settings.size);
     } else if (spot) {
         fit_cube(map, bounds, spot->position, settings);
     } else if (const auto* point = std::get_if<scene::PointLight>(&light.shape)) {

@@ -4,6 +4,8 @@
 #include "shaders/light_map.shared.h"
 #include "shadow/technique.h"
 
+#include <algorithm>
+
 // The joint on which projections and filters turn: depth layers of one light. A fit is written once and serves every filter; a
 // filter is written once, against shaders/light_map.glsl, and runs with every fit and every light.
 namespace gnomon::shadow::parts {
@@ -17,7 +19,7 @@ struct LightMapSettings {
     DepthFormat format = DepthFormat::d32;
     float slope_bias = 0.0f; ///< polygon offset factor, applied by the hardware while drawing (factor * max |dz/dx|, |dz/dy|)
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
-    float guard_texels = 1.5f; ///< filter radius that must not run over a cube face's rim: faces are drawn that much wider
+    float guard_texels = 1.5f; ///< filter radius plus 1: layers are drawn that much wider, so that no filter runs over a rim
 };
 
 struct LightMap {
@@ -28,6 +30,10 @@ struct LightMap {
 /// Which layouts exist for a light: directional -> one orthographic layer; spot up to 120 degrees -> one perspective layer; wider
 /// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
+
+/// A filter of `kernel` texels held to what a map can give: a quarter of its side. Wider ones would average unrelated parts of the
+/// scene, and the guard around a cube's face would leave nothing of the face.
+inline int filter_width(int kernel, int map_size) { return std::clamp(kernel, 1, std::max(map_size / 4, 1)); }
 
 /// Draws all opaque and masked casters into the fitted layers: one pass, culled per layer.
 LightMap draw_light_map(gpu::PassList&, const Frame&, const LightMapSettings&);

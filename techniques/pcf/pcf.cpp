@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Percentage-closer filtering (Reeves, Salesin, Cook 1987) and the kernels, patterns and biases that came after.
+#include "techniques/pcf/pcf.shared.h"
+
+#include "shadow/light_constants.h"
+#include "shadow/parts/light_map.h"
+#include "shadow/parts/sample_patterns.h"
+#include "shadow/technique.h"
+
+#include <algorithm>
+
+namespace gnomon::techniques::pcf {
+
+namespace {
+
+using namespace shadow;
+
+void describe(Params& p, Fields& fields)
+{
+    fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
+    fields.choice(
+        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    fields.integer("kernel", p.kernel, {1, PCF_MAX_KERNEL}, "texels",
+        "Width of the filter, n taps a side or a disk's diameter; at most a quarter of the map.");
+    fields.choice("form", p.form, {"box", "gaussian", "bicubic", "poisson", "vogel"},
+        "A grid of n x n taps (equal weights, Gaussian weights, or equal ones each a cubic B-spline), or a disk of scattered taps.");
+    fields.flag("bilinear", p.bilinear, "Each tap blends 2 x 2 comparisons instead of taking the nearest texel (all forms but bicubic).");
+    fields.integer(
+        "taps", p.taps, {4, PCF_MAX_TAPS}, "", "Taps of a disk; poisson has 8 to 64; rounded up to fill the groups of interleave.");
+    fields.choice("rotation", p.rotation, {"none", "blue_noise", "interleaved_gradient"},
+        "Turns a disk by noise, another angle each pixel and frame.");
+    fields.choice(
+        "interleave", p.interleave, {"1", "2", "4"}, "Splits a disk's taps over k x k pixels, and averages those of one surface.");
+    fields.flag("adaptive", p.adaptive, "A few outer taps come first, and decide where they agree.");
+    fields.choice("window", p.window, {"fixed", "footprint"}, "Footprint: the filter is at least as wide as the pixel is in the map.");
+    fields.choice("bias", p.bias, {"slope", "receiver_plane", "cone"},
+        "Against self-shadowing: polygon offset of the casters, the receiver's plane at every texel, or a depth that grows with distance.");
+    fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
+    fields.real(
+        "bias_slope", p.bias_slope, {0, 8}, "", "slope: polygon offset, times the depth slope, times twice the filter's radius in texels.");
+    fields.real("bias_cone", p.bias_cone, {0, 64}, "",
+        "cone: metres of depth a metre between tap and receiver, where the receiver's own slope is less.");
+    fields.real(
+        "slope_limit", p.slope_limit, {0, 1000}, "", "receiver_plane, cone: the steepest receiver followed, metres of depth a metre.");
+}
+
+bool is_disk(const Params& p) { return p.form == PCF_POISSON || p.form == PCF_VOGEL; }
+
+/// Texels between the receiver and the farthest one read.
+float reach(const Params& p, int kernel)
+{
+    const float half = 0.5f * float(kernel);
+    if (is_disk(p)) return half + 1.0f;
+    return half + (p.form == PCF_BICUBIC ? 1.5f : p.bilinear ? 0.5f : 0.0f);
+}
+
+class Pcf final : public TechniqueWith<Params> {
+public:
+    explicit Pcf(gpu::Device& device)
+        : device_(device)
+    {
+    }
+
+private:
+    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    {
+        ResolveConstants c{.view = view_constants(frame.view, frame.index),
+            .light = light_constants(frame.light, frame.resources.bounds()),
+            .params = params,
+            .kernel = parts::filter_width(params.kernel, params.map_size),
+            .groups = is_disk(params) ? 1 << params.interleave : 1};
+        c.largest = params.window ? parts::filter_width(PCF_MAX_KERNEL, params.map_size) : c.kernel;
+        set_taps(c);
+        const parts::LightMap map = parts::draw_light_map(passes, frame,
+            {.size = params.map_size,
+                .fit = parts::Fit(params.fit),
+                .slope_bias = params.bias == PCF_BIAS_SLOPE ? params.bias_slope * 2.0f * reach(params, c.kernel) : 0.0f,
+                .guard_texels = reach(params, c.largest) + 1.0f});
+        c.map = map.constants;
+        const bool noise = is_disk(params) && params.rotation == PCF_ROTATE_BLUE_NOISE;
+        if (noise && !noise_) noise_ = parts::blue_noise(device_);
+
+        gpu::ImageId target = frame.output;
+        if (c.groups > 1) {
+            gpu::ImageDesc part = passes.desc(frame.output);
+            part.name = "parts";
+            target = passes.transient(part);
+        }
+        const gpu::SpecConstant modes[] = {{0, uint32_t(params.form)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.bias)},
+            {3, uint32_t(params.rotation)}, {4, uint32_t(params.adaptive)}, {5, uint32_t(params.window)}};
+        passes.fullscreen({.name = "resolve",
+            .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/pcf/pcf_resolve.frag", modes),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
+                gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+                // any image where the shader does not look
+                {noise ? passes.import(noise_) : frame.gbuffer.depth, gpu::Use::sample}},
+            .constants = c,
+            .colors = {{target}}});
+        if (c.groups == 1) return;
+        passes.fullscreen({.name = "gather",
+            .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/pcf/pcf_gather.frag"),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {target, gpu::Use::sample}},
+            .constants = GatherConstants{c.view, c.groups},
+            .colors = {{frame.output}}});
+    }
+
+    void set_taps(ResolveConstants& c)
+    {
+        if (!is_disk(c.params)) return;
+        const bool poisson = c.params.form == PCF_POISSON;
+        const int wanted = poisson ? std::clamp(c.params.taps, 8, 64) : c.params.taps, group = c.groups * c.groups;
+        c.taps = (wanted + group - 1) / group * group;
+        if (disk_form_ != c.params.form || int(disk_.size()) != c.taps)
+            disk_form_ = c.params.form, disk_ = poisson ? parts::poisson_disk(c.taps) : parts::vogel_disk(c.taps);
+        std::copy(disk_.begin(), disk_.end(), c.disk);
+    }
+
+    gpu::Device& device_;
+    gpu::Image noise_; ///< made when first asked for
+    int disk_form_ = -1;
+    std::vector<vec2> disk_;
+};
+
+} // namespace
+
+} // namespace gnomon::techniques::pcf
+
+extern const gnomon::shadow::TechniqueInfo technique_pcf;
+const gnomon::shadow::TechniqueInfo technique_pcf = {
+    .id = "pcf",
+    .title = "Percentage-closer filtering",
+    .family = "shadow maps",
+    .cite = "Reeves, Salesin, Cook 1987",
+    .output = gnomon::shadow::Output::visibility,
+    .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
+    .params = [] { return gnomon::shadow::param_table(gnomon::techniques::pcf::describe); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::pcf::Pcf>(device);
+    },
+};

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/noise.glsl"
+#include "shaders/percentage_closer.glsl"
+#include "shaders/receiver.glsl"
+#include "techniques/pcf/pcf.shared.h"
+
+layout(set = 0, binding = 0) uniform sampler2D depth_image;
+layout(set = 0, binding = 1) uniform usampler2D normal_image;
+layout(set = 0, binding = 2) uniform sampler2DArray map_image;
+layout(set = 0, binding = 3) uniform sampler2D noise_image;
+layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
+
+layout(constant_id = 0) const int form = PCF_BOX;
+layout(constant_id = 1) const bool bilinear = true;
+layout(constant_id = 2) const int bias = PCF_BIAS_CONE;
+layout(constant_id = 3) const int rotation = PCF_ROTATE_NONE;
+layout(constant_id = 4) const bool adaptive = false;
+layout(constant_id = 5) const bool footprint = false;
+
+layout(location = 0) out float visibility;
+
+// Width in texels of the pixel's own footprint on the receiver, as the map sees it: the longest side of the parallelogram between this
+// pixel and its neighbours, cast along the eye's rays onto the receiver's plane.
+float footprint_texels(LightMapLayer layer, Receiver r, vec2 at)
+{
+    float longest = 0.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        const vec2 pixel = gl_FragCoord.xy + vec2(axis == 0, axis == 1);
+        const vec3 q = world_from_depth(c.view, pixel, texelFetch(depth_image, ivec2(gl_FragCoord.xy), 0).r);
+        const vec3 ray = c.view.orthographic != 0 ? c.view.forward : normalize(q - c.view.eye);
+        const float across = dot(r.n_geometric, ray);
+        const vec3 neighbour = q - ray * (dot(r.n_geometric, q - r.p_world) / (across > -1e-3 ? -1e-3 : across));
+        longest = max(longest, distance(project(layer, neighbour).uv * c.map.size, at));
+    }
+    return longest;
+}
+
+ReceiverPlane make_plane(LightMapLayer layer, Receiver r, MapPoint m, float radius)
+{
+    if (bias == PCF_BIAS_RECEIVER_PLANE)
+        return receiver_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
+    if (bias == PCF_BIAS_CONE)
+        return cone_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit);
+    return flat_plane(layer, c.map.size, c.map.depth_step, m);
+}
+
+mat2 tap_rotation(ivec2 tile)
+{
+    if (rotation == PCF_ROTATE_NONE) return mat2(1.0);
+    const float turn
+        = rotation == PCF_ROTATE_BLUE_NOISE ? blue_noise(noise_image, tile, c.view.frame) : interleaved_gradient(tile, c.view.frame);
+    const float s = sin(6.28318531 * turn), k = cos(6.28318531 * turn);
+    return mat2(k, s, -s, k);
+}
+
+// Taps of the disk; with groups, those of this pixel's group alone: every group has taps of all radii.
+float disk_filter(int layer_index, ReceiverPlane plane, float radius)
+{
+    const ivec2 pixel = ivec2(gl_FragCoord.xy), tile = pixel / c.groups, place = pixel - tile * c.groups;
+    const int first = place.y * c.groups + place.x, stride = c.groups * c.groups;
+    const mat2 turned = radius * tap_rotation(tile);
+    const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);
+    const int count = c.taps / stride, probes = adaptive ? min(8, count) : count;
+    float sum = 0.0;
+    for (int i = 0; i < probes; ++i)
+        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == PCF_BIAS_CONE);
+    if (!adaptive || sum == 0.0 || sum == float(probes)) return sum / float(probes);
+    for (int i = probes; i < count; ++i)
+        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == PCF_BIAS_CONE);
+    return sum / float(count);
+}
+
+void main()
+{
+    const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
+    visibility = 1.0;
+    if (r.background) return;
+    visibility = 0.0;
+    if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
+
+    const int index = select_layer(c.map.layout_kind, c.map.centre, r.p_world);
+    const LightMapLayer layer = c.map.layers[index];
+    MapPoint m = project(layer, r.p_world);
+    visibility = 1.0;
+    if (!m.inside) return;
+    m.depth -= c.params.bias_constant;
+
+    int n = c.kernel;
+    if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, m.uv * c.map.size))), n, c.largest);
+    const ReceiverPlane plane = make_plane(layer, r, m, 0.5 * float(n) + 2.0);
+    if (form == PCF_POISSON || form == PCF_VOGEL) {
+        visibility = disk_filter(index, plane, 0.5 * float(n));
+        return;
+    }
+    const int reconstruct = form == PCF_BICUBIC ? RECONSTRUCT_BICUBIC : bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST;
+    visibility = separable_filter(map_image, index, plane, n, form == PCF_GAUSSIAN, reconstruct, bias == PCF_BIAS_CONE, adaptive);
+}
