@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "gpu/device.h"
+#include "shadow/parts/image_formats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,6 @@
 namespace gnomon::shadow::parts {
 
 namespace {
-
-VkFormat format_of(int channels, VkFormat one, VkFormat two, VkFormat four)
-{
-    if (channels != 1 && channels != 2 && channels != 4)
-        base::fail("a summed-area table has 1, 2 or 4 channels, not {}; choose one of these", channels);
-    return channels == 1 ? one : channels == 2 ? two : four;
-}
 
 /// One scan: rows of `from` to columns of the result, which has the entry 0 before them.
 gpu::ImageId scan(gpu::PassList& passes, const char* name, gpu::ImageId from, VkFormat format, const char* shader, gpu::Constants constants)
@@ -35,7 +29,7 @@ gpu::ImageId scan(gpu::PassList& passes, const char* name, gpu::ImageId from, Vk
 
 gpu::ImageId build_float_sums(gpu::PassList& passes, gpu::ImageId from, int channels, vec4 centre)
 {
-    const VkFormat format = format_of(channels, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const VkFormat format = float_format(channels);
     const char* shader = "src/shadow/parts/summed_area_float.comp";
     const gpu::ImageId rows = scan(passes, "sum rows", from, format, shader, centre);
     return scan(passes, "sum columns", rows, format, shader, vec4(0));
@@ -44,7 +38,7 @@ gpu::ImageId build_float_sums(gpu::PassList& passes, gpu::ImageId from, int chan
 gpu::ImageId build_integer_sums(gpu::PassList& passes, gpu::ImageId from, int channels, int bits)
 {
     if (bits < 1 || bits > 24) base::fail("an integer summed-area table has 1 to 24 bits a value, not {}; see integer_sum_bits", bits);
-    const VkFormat format = format_of(channels, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT);
+    const VkFormat format = integer_format(channels);
     const gpu::ImageId rows = scan(passes, "sum rows", from, format, "src/shadow/parts/summed_area_quantise.comp", float((1 << bits) - 1));
     return scan(passes, "sum columns", rows, format, "src/shadow/parts/summed_area_integer.comp", {});
 }
