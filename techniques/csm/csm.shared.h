@@ -9,7 +9,7 @@ struct Params {
     FilterParams filtering;
     int terms DEFAULT(8);
     int format DEFAULT(0);
-    float attenuation DEFAULT(1.0f);
+    float attenuation DEFAULT(0.0f);
     float offset DEFAULT(0.0f);
     float scale DEFAULT(2.0f);
 };

@@ -41,7 +41,7 @@ class Method final : public TechniqueWith<Params> {
                     },
                 .average = params.space == 1 ? parts::window_log_mean_exp : nullptr});
         const bool by_depth = params.fallback == 2;
-        const gpu::ImageId largest = by_depth ? parts::window_min_max(passes, map.values, params.filtering.kernel) : map.values;
+        const gpu::ImageId largest = by_depth ? parts::window_min_max(passes, map.values, map.constants.params.kernel) : map.values;
         parts::resolve_filtered(passes, frame, map, "techniques/esm/esm_resolve.frag", ResolveConstants{map.constants, capped},
             {gpu::Binding(map.values, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 gpu::Binding(largest, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});

@@ -6,7 +6,7 @@
 TECHNIQUE_BEGIN(esm)
 
 struct Params {
-    FilterParams filtering;
+    FilterParams filtering DEFAULT({.bias = 0.0f});
     float exponent DEFAULT(80.0f);
     int space DEFAULT(0);
     int fallback DEFAULT(1);

@@ -10,8 +10,8 @@ struct Params {
     int components DEFAULT(1);
     int format DEFAULT(0);
     float exponent DEFAULT(40.0f);
-    float negative_exponent DEFAULT(10.0f);
-    float min_deviation DEFAULT(0.0005f);
+    float negative_exponent DEFAULT(20.0f);
+    float min_deviation DEFAULT(0.001f);
     float bleed_reduction DEFAULT(0.1f);
 };
 

@@ -14,7 +14,7 @@ struct Params {
     int split DEFAULT(1);
     int format DEFAULT(0);
     float overlap DEFAULT(0.1f);
-    float min_deviation DEFAULT(0.0005f);
+    float min_deviation DEFAULT(0.001f);
     float bleed_reduction DEFAULT(0.1f);
 };
 

@@ -7,7 +7,7 @@ TECHNIQUE_BEGIN(power_cdf)
 
 struct Params {
     FilterParams filtering;
-    float plane_bias DEFAULT(1.5f);
+    float plane_bias DEFAULT(2.0f);
     float bleed_reduction DEFAULT(0.0f);
 };
 

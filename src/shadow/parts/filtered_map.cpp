@@ -72,7 +72,7 @@ void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages
 LightMap draw_map_to_filter(gpu::PassList& passes, const Frame& frame, const shaders::FilterParams& params)
 {
     return draw_light_map(
-        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.5f * float(params.kernel) + 1.0f});
+        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.5f * float(filter_width(params.kernel, params.map_size)) + 1.0f});
 }
 
 FilteredMap draw_filtered_map(gpu::PassList& passes, const Frame& frame, const shaders::FilterParams& params, const ValuesPass& pass)
@@ -83,23 +83,25 @@ FilteredMap draw_filtered_map(gpu::PassList& passes, const Frame& frame, const s
 FilteredMap filter_map(
     gpu::PassList& passes, const Frame& frame, const LightMap& map, const shaders::FilterParams& params, const ValuesPass& pass)
 {
+    const int width = filter_width(params.kernel, params.map_size);
     FilteredMap out;
     out.map = map;
     out.values = make_values(passes, map, params, pass);
     out.constants = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants,
-        params, pass.groups, params.kernel % 2 == 0 ? 0.5f : 0.0f};
+        params, pass.groups, width % 2 == 0 ? 0.5f : 0.0f};
+    out.constants.params.kernel = width;
     out.means = out.values;
     out.sums = passes.transient({VK_FORMAT_R32_UINT, {1, 1}, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "no sums"});
     if (params.prefilter == PREFILTER_SUMS) {
         // windows grow with a pixel's footprint up to this width, to which the integers' precision is fitted
-        out.constants.widest = std::min(std::max(2.0f * float(params.kernel), 64.0f), float(params.map_size));
+        out.constants.widest = std::min(std::max(2.0f * float(width), 64.0f), float(params.map_size));
         const int bits = std::min(integer_sum_bits(std::pow(out.constants.widest, 2.0)), 24);
         out.constants.sum_step = integer_sum_step(bits);
         out.sums = build_integer_sums(passes, out.values, channels_of(pass.format), bits);
     } else {
         passes.clear(out.sums, {});
         const auto average = pass.average ? pass.average : params.prefilter == PREFILTER_GAUSSIAN ? window_gaussian : window_mean;
-        out.means = average(passes, out.values, params.kernel, params.prefilter == PREFILTER_MIPS);
+        out.means = average(passes, out.values, width, params.prefilter == PREFILTER_MIPS);
     }
     if (params.prefilter == PREFILTER_MIPS) fill_mean_pyramid(passes, out.means);
     return out;

@@ -36,7 +36,7 @@ struct FilteredMap {
     gpu::ImageId values; ///< array: layer of the map * groups + group
     gpu::ImageId means; ///< the same, averaged
     gpu::ImageId sums; ///< their summed-area table, where that was asked for
-    shaders::FilterResolve constants; ///< for shaders/filter_resolve.glsl
+    shaders::FilterResolve constants; ///< for shaders/filter_resolve.glsl; params.kernel is the width in use (filter_width)
 };
 
 /// Draws the light map and makes values and means.
