@@ -17,6 +17,21 @@ struct IntegerSums {
     vec4 mean;
 };
 
+struct FootprintCase {
+    int layer;
+    int most; ///< probes
+    vec2 uv;
+    vec2 uv_dx;
+    vec2 uv_dy;
+};
+
+struct FootprintResult {
+    vec2 major;
+    float minor;
+    vec4 mean;
+    vec4 trilinear; ///< one fetch as wide as the long axis
+};
+
 SHARED_END
 
 #endif
