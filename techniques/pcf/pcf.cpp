@@ -86,8 +86,9 @@ private:
             part.name = "parts";
             target = passes.transient(part);
         }
+        const uint32_t unrolled = !params.window && !is_disk(params) && c.kernel <= 9 ? uint32_t(c.kernel) : 0;
         const gpu::SpecConstant modes[] = {{0, uint32_t(params.form)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.bias)},
-            {3, uint32_t(params.rotation)}, {4, uint32_t(params.adaptive)}, {5, uint32_t(params.window)}};
+            {3, uint32_t(params.rotation)}, {4, uint32_t(params.adaptive)}, {5, uint32_t(params.window)}, {6, unrolled}};
         passes.fullscreen({.name = "resolve",
             .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/pcf/pcf_resolve.frag", modes),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},

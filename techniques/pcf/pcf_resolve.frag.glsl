@@ -18,6 +18,8 @@ layout(constant_id = 2) const int bias = PCF_BIAS_CONE;
 layout(constant_id = 3) const int rotation = PCF_ROTATE_NONE;
 layout(constant_id = 4) const bool adaptive = false;
 layout(constant_id = 5) const bool footprint = false;
+// A small fixed kernel, or 0: known to the compiler, so that the filter's loops are unrolled.
+layout(constant_id = 6) const int small_kernel = 0;
 
 layout(location = 0) out float visibility;
 
@@ -87,7 +89,7 @@ void main()
     if (!m.inside) return;
     m.depth -= c.params.bias_constant;
 
-    int n = c.kernel;
+    int n = small_kernel > 0 ? small_kernel : c.kernel;
     if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, m.uv * c.map.size))), n, c.largest);
     const ReceiverPlane plane = make_plane(layer, r, m, 0.5 * float(n) + 2.0);
     if (form == PCF_POISSON || form == PCF_VOGEL) {
