@@ -3,6 +3,7 @@
 // with. Include the technique's shared header first: its ResolveConstants holds a FilterResolve named `filtering`.
 #ifndef GNOMON_FILTER_RESOLVE_GLSL
 #define GNOMON_FILTER_RESOLVE_GLSL
+#include "shaders/anisotropic.glsl"
 #include "shaders/filter.shared.h"
 #include "shaders/light.glsl"
 #include "shaders/light_map.glsl"
@@ -51,7 +52,9 @@ bool find_filter_point(out FilterPoint at)
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
     const float texel = metres_per_texel(layer, m.depth) * per_metre;
     at.slope *= min(1.0, 50.0 * texel / max(length(at.slope), 1e-20));
-    at.t = centred_from_depth(layer, m.depth) - c.filtering.params.bias * (abs(at.slope.x) + abs(at.slope.y));
+    // as reference_depth: what rounding may take
+    const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
+    at.t = centred_from_depth(layer, m.depth - rounding) - c.filtering.params.bias * (abs(at.slope.x) + abs(at.slope.y));
     return true;
 }
 
@@ -68,7 +71,7 @@ vec4 window_mean(FilterPoint at, int group)
         return 2.0 * window_mean(sums_image, layer, at.uv * size - half_width, at.uv * size + half_width, c.filtering.sum_step) - 1.0;
     }
     const vec3 uv = vec3(at.uv + c.filtering.shift / size, float(layer));
-    if (prefilter == PREFILTER_MIPS) return textureLod(means_image, uv, log2(max(size * max(length(at.dx), length(at.dy)), 1.0)));
+    if (prefilter == PREFILTER_MIPS) return anisotropic_mean(means_image, layer, uv.xy, at.dx, at.dy, 8);
     return textureLod(means_image, uv, 0.0);
 }
 

@@ -17,6 +17,7 @@ void describe(Params& p, Fields& fields)
     parts::describe_filter(fields, p.filtering, parts::Averages::fixed_windows);
     fields.real("plane_bias", p.plane_bias, {0, 4}, "half windows",
         "A receiver is moved towards the light by the depth that its plane gains from the window's centre to its rim, times this.");
+    fields.real("inset", p.inset, {0, 0.9}, "of the range", "The distribution is looked up so much nearer to the light than the receiver.");
     fields.real(
         "bleed_reduction", p.bleed_reduction, {0, 0.9}, "", "Fractions of light up to this one become dark; the rest is stretched.");
 }

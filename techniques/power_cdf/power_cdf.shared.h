@@ -7,7 +7,8 @@ TECHNIQUE_BEGIN(power_cdf)
 
 struct Params {
     FilterParams filtering;
-    float plane_bias DEFAULT(2.0f);
+    float plane_bias DEFAULT(0.5f);
+    float inset DEFAULT(0.3f);
     float bleed_reduction DEFAULT(0.0f);
 };
 

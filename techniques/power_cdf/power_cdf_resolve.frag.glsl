@@ -14,5 +14,5 @@ void main()
     FilterPoint at;
     if (!find_filter_point(at)) return;
     const vec2 z = window_range(range_image, at);
-    visibility = reduce_bleeding(power_visibility(window_mean(at, 0).x, z.x, z.y, at.t), c.params.bleed_reduction);
+    visibility = reduce_bleeding(power_visibility(window_mean(at, 0).x, z.x, z.y, at.t, c.params.inset), c.params.bleed_reduction);
 }

@@ -71,8 +71,10 @@ void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages
 
 LightMap draw_map_to_filter(gpu::PassList& passes, const Frame& frame, const shaders::FilterParams& params)
 {
-    return draw_light_map(
-        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.5f * float(filter_width(params.kernel, params.map_size)) + 1.0f});
+    return draw_light_map(passes, frame,
+        {.size = params.map_size,
+            .fit = Fit(params.fit),
+            .guard_texels = 0.5f * float(filter_width(params.kernel, params.map_size)) + 1.0f});
 }
 
 FilteredMap draw_filtered_map(gpu::PassList& passes, const Frame& frame, const shaders::FilterParams& params, const ValuesPass& pass)
