@@ -11,7 +11,7 @@ struct Footprint {
 
 // From the change of the place, in texels, to the next pixel in x and in y. The derivatives themselves are the axes only where they are
 // at right angles; the singular values and vectors of (dx dy) are the axes always (Heckbert 1989, "Fundamentals of texture mapping and image
-// warping", section 3.5.8). J J^T = (a b; b c) has them squared as its eigenvalues.
+// warping"). J J^T = (a b; b c) has them squared as its eigenvalues.
 Footprint ellipse_footprint(vec2 dx, vec2 dy)
 {
     const float a = dx.x * dx.x + dy.x * dy.x, b = dx.x * dx.y + dy.x * dy.y, c = dx.y * dx.y + dy.y * dy.y;

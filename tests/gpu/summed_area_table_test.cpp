@@ -139,6 +139,24 @@ TEST_F(SummedAreaTable, IntegerMeansAreThoseOfBruteForce)
     }
 }
 
+TEST_F(SummedAreaTable, IntegerMeansBearWrapAround)
+{
+    // Entries pass 2^32 a hundred times; windows of up to 256 texels do not.
+    const base::Size size{129, 75};
+    const Layers layers = random_layers(size, 2, 2, 60);
+    std::mt19937 random(61);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    std::vector<shaders::WindowCase> cases;
+    for (int i = 0; i < 1000; ++i) {
+        const vec2 lo = vec2(unit(random), unit(random)) * vec2(size.width, size.height) - 4.0f;
+        cases.push_back({i % 2, lo, lo + 15.0f * vec2(unit(random), unit(random))});
+    }
+    const auto results = integer_sums(layers, cases, 24);
+    for (size_t i = 0; i < cases.size(); ++i)
+        for (int k = 0; k < 2; ++k)
+            ASSERT_NEAR(double(results[i].mean[k]), window_mean(layers[size_t(cases[i].layer)], k, cases[i].lo, cases[i].hi), 4e-6) << i;
+}
+
 TEST_F(SummedAreaTable, IntegersClampTheirValues)
 {
     Layers layers{base::Picture({4, 1}, 1)};
