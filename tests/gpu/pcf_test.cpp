@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The technique as a whole, on scenes of a few quads: what its filters are in closed form, and what its biases promise.
-#include "device_fixture.h"
-
-#include "shadow/gbuffer.h"
-#include "shadow/technique.h"
+#include "technique_fixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,59 +10,17 @@ extern const gnomon::shadow::TechniqueInfo technique_pcf;
 namespace gnomon {
 namespace {
 
-/// A horizontal square of half width `half` at `centre`.
-void add_quad(scene::Scene& s, vec3 centre, float half)
-{
-    scene::Mesh quad;
-    quad.positions = {{-half, 0, -half}, {-half, 0, half}, {half, 0, half}, {half, 0, -half}};
-    quad.indices = {0, 1, 2, 0, 2, 3};
-    scene::complete(quad);
-    s.instances.push_back({int(s.meshes.size()), glm::translate(mat4(1), centre)});
-    s.meshes.push_back(quad);
-}
+using gpu::add_quad;
+using gpu::camera_above;
+using gpu::floor_scene;
+using gpu::half_shadowed;
 
-scene::Scene floor(float half)
-{
-    scene::Scene s;
-    s.materials.emplace_back();
-    s.materials[0].double_sided = true;
-    add_quad(s, vec3(0), half);
-    return s;
-}
-
-class Pcf : public gpu::DeviceTest {
+class Pcf : public gpu::TechniqueTest {
 protected:
-    using Values = std::vector<std::pair<const char*, double>>;
-
     static std::vector<float> draw(
         const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values)
     {
-        const Bounds bounds = s.bounds();
-        const scene::View view = scene::make_view(camera, size, bounds);
-        shadow::ParamValues params(technique_pcf.params());
-        for (const auto& [name, value] : values) params.set(name, value);
-        shadow::SceneGpu scene(device(), s);
-        gpu::Image out = image("visibility", VK_FORMAT_R32_SFLOAT, size);
-        const std::unique_ptr<shadow::Technique> technique = technique_pcf.create(device());
-        const scene::Light parsed = scene::parse_light(light, {}, bounds);
-        gpu::PassList passes(device());
-        const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
-        technique->record(passes, {s, view, parsed, scene, g, passes.import(out), 0}, params.bytes());
-        device().submit(std::move(passes));
-        return device().read_back(out).values;
-    }
-
-    static double mean(const std::vector<float>& v)
-    {
-        double sum = 0;
-        for (const float x : v) sum += double(x);
-        return sum / double(v.size());
-    }
-
-    /// Straight down on the floor around `target`, `half` metres each way.
-    static scene::Camera above(vec3 target, float half)
-    {
-        return {.eye = target + vec3(0, 3, 0), .target = target, .up = {0, 0, -1}, .half_height = half};
+        return TechniqueTest::draw(technique_pcf, s, camera, size, light, values);
     }
 };
 
@@ -73,7 +28,7 @@ constexpr double box = 0, poisson = 3, vogel = 4, receiver_plane = 1, cone = 2;
 
 TEST_F(Pcf, TiltedPlanesDoNotShadowThemselves)
 {
-    const scene::Scene s = floor(10);
+    const scene::Scene s = floor_scene(10);
     const scene::Camera camera{.eye = {0, 6, 9}, .target = {0, 0, 0}};
     // the floor is tilted by 90 degrees less the elevation; point and spot lights see all tilts at once
     for (const char* light : {"sun,elevation=90,angle=0", "sun,elevation=60,azimuth=20,angle=0", "sun,elevation=30,azimuth=70,angle=0",
@@ -101,29 +56,21 @@ TEST_F(Pcf, TiltedPlanesDoNotShadowThemselves)
 
 TEST_F(Pcf, CasterOneCentimetreAboveTheFloorCastsItsShadow)
 {
-    scene::Scene s = floor(0.5f);
+    scene::Scene s = floor_scene(0.5f);
     add_quad(s, {0, 0.01f, 0}, 0.1f);
     for (const double bias : {receiver_plane, cone}) {
         // 45 degrees: seen from above, a strip of 1 cm beside the caster is dark; its middle is 5 mm off
-        const std::vector<float> steep = draw(s, above({-0.105f, 0, 0}, 0.0005f), {4, 4}, "sun,elevation=45,azimuth=90,angle=0",
+        const std::vector<float> steep = draw(s, camera_above({-0.105f, 0, 0}, 3, 0.0005f), {4, 4}, "sun,elevation=45,azimuth=90,angle=0",
             {{"bias", bias}, {"kernel", 3}, {"map_size", 2048}, {"fit", 0}});
         EXPECT_LT(mean(steep), 0.01) << bias;
         // 10 degrees, a floor tilted by 80: the strip is 5.7 cm long
-        const std::vector<float> flat = draw(s, above({-0.128f, 0, 0}, 0.0005f), {4, 4}, "sun,elevation=10,azimuth=90,angle=0",
+        const std::vector<float> flat = draw(s, camera_above({-0.128f, 0, 0}, 3, 0.0005f), {4, 4}, "sun,elevation=10,azimuth=90,angle=0",
             {{"bias", bias}, {"kernel", 3}, {"map_size", 2048}, {"fit", 0}});
         EXPECT_LT(mean(flat), 0.01) << bias;
-        const std::vector<float> beyond = draw(s, above({-0.18f, 0, 0}, 0.0005f), {4, 4}, "sun,elevation=10,azimuth=90,angle=0",
+        const std::vector<float> beyond = draw(s, camera_above({-0.18f, 0, 0}, 3, 0.0005f), {4, 4}, "sun,elevation=10,azimuth=90,angle=0",
             {{"bias", bias}, {"kernel", 3}, {"map_size", 2048}, {"fit", 0}});
         EXPECT_GT(mean(beyond), 0.99) << bias;
     }
-}
-
-/// A floor whose half x < 0 is shadowed by a sheet above it; the sun is overhead.
-scene::Scene half_shadowed()
-{
-    scene::Scene s = floor(4);
-    add_quad(s, {-2, 1, 0}, 2);
-    return s;
 }
 
 TEST_F(Pcf, InterleavedGroupsAddUpToTheWholeDisk)
@@ -135,7 +82,7 @@ TEST_F(Pcf, InterleavedGroupsAddUpToTheWholeDisk)
             const Values whole{{"form", form}, {"kernel", 16}, {"map_size", 64}, {"fit", 0}, {"taps", 32}, {"bias", receiver_plane}};
             Values split = whole;
             split.push_back({"interleave", 2});
-            const scene::Camera camera{.eye = {x, 0.5f, 0}, .target = {x, 0, 0}, .up = {0, 0, -1}, .half_height = 0.005f};
+            const scene::Camera camera = camera_above({x, 0, 0}, 0.5f, 0.005f);
             const std::vector<float> a = draw(s, camera, {32, 32}, "sun,elevation=90,angle=0", whole);
             const std::vector<float> b = draw(s, camera, {32, 32}, "sun,elevation=90,angle=0", split);
             EXPECT_GT(mean(a), 0.4);
@@ -153,7 +100,7 @@ TEST_F(Pcf, RotatedDisksAddUpToTheirMeanOverAllAngles)
         for (const float x : {0.3f, 1.0f}) {
             const Values values{{"form", vogel}, {"kernel", 16}, {"map_size", 64}, {"fit", 0}, {"taps", 16}, {"rotation", rotation},
                 {"bias", receiver_plane}};
-            const scene::Camera camera{.eye = {x, 0.5f, 0}, .target = {x, 0, 0}, .up = {0, 0, -1}, .half_height = 0.005f};
+            const scene::Camera camera = camera_above({x, 0, 0}, 0.5f, 0.005f);
             const double got = mean(draw(s, camera, {64, 64}, "sun,elevation=90,angle=0", values));
             // The map of 64 texels holds the floor's 8 m and, for a reach of 9 texels, that many more at each rim. A circle of radius r
             // about the receiver lies beyond the edge for acos(x / r) / pi of its length.
@@ -169,7 +116,7 @@ TEST_F(Pcf, RotatedDisksAddUpToTheirMeanOverAllAngles)
 
 TEST_F(Pcf, FootprintAveragesOverThePixel)
 {
-    scene::Scene s = floor(200);
+    scene::Scene s = floor_scene(200);
     add_quad(s, {-100, 1, 0}, 100);
     // 2.5 m a pixel are several texels of 0.4 m. The pixel across the shadow's edge sees its lit share; one tap sees all or nothing.
     constexpr float pixel = 2.5f;
@@ -177,10 +124,7 @@ TEST_F(Pcf, FootprintAveragesOverThePixel)
         double worst = 0;
         for (float edge = 0.05f; edge < 1; edge += 0.1f) {
             const float x = pixel * (0.5f - edge); // of the middle of pixel (8, 8)
-            const scene::Camera camera{.eye = {x - 0.5f * pixel, 0.9f, -0.5f * pixel},
-                .target = {x - 0.5f * pixel, 0, -0.5f * pixel},
-                .up = {0, 0, -1},
-                .half_height = 8 * pixel};
+            const scene::Camera camera = camera_above({x - 0.5f * pixel, 0, -0.5f * pixel}, 0.9f, 8 * pixel);
             const std::vector<float> v = draw(s, camera, {16, 16}, "sun,elevation=90,angle=0",
                 {{"kernel", 1}, {"map_size", 1024}, {"fit", 0}, {"window", window}, {"bias", receiver_plane}});
             worst = std::max(worst, std::abs(double(v[8 * 16 + 8]) - double(1 - edge)));
