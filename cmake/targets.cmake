@@ -53,4 +53,6 @@ function(gnomon_techniques)
   add_library(gnomon::techniques ALIAS gnomon_techniques)
   target_include_directories(gnomon_techniques PRIVATE ${CMAKE_BINARY_DIR}/generated)
   target_link_libraries(gnomon_techniques PUBLIC gnomon::shadow)
+  # Back again for the linker alone: technique() in the one looks through the list in the other.
+  target_link_libraries(gnomon_shadow INTERFACE gnomon_techniques)
 endfunction()

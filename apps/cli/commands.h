@@ -67,6 +67,20 @@ struct Bench {
 };
 int bench(const Bench&);
 
+struct Sweep {
+    Common common;
+    std::string experiment, output, shard;
+    bool again = false, plan = false;
+};
+int sweep(const Sweep&);
+
+struct Merge {
+    Common common;
+    std::string experiment, output;
+    std::vector<std::string> files;
+};
+int merge(const Merge&);
+
 struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques

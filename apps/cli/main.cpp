@@ -52,6 +52,24 @@ std::vector<std::string> technique_options(const CLI::App& app, const std::strin
     return out;
 }
 
+void add_sweep(CLI::App& app, cli::Sweep& sweep)
+{
+    app.add_option("experiment", sweep.experiment, "The experiment file (docs/experiments.md)")->required();
+    app.add_option("-o,--output", sweep.output, "Folder for the results (default: experiments/results/DEVICE/EXPERIMENT in the checkout)");
+    app.add_option("--shard", sweep.shard, "Make only part I of N, as 2/3; `gnomon merge` puts the parts together");
+    app.add_flag("--again", sweep.again, "Measure finished runs anew");
+    app.add_flag("--plan", sweep.plan, "List the runs and make none");
+    add_common(app, sweep.common);
+}
+
+void add_merge(CLI::App& app, cli::Merge& merge)
+{
+    app.add_option("experiment", merge.experiment, "The experiment file")->required();
+    app.add_option("files", merge.files, "The shards' results.I-of-N.jsonl files")->required();
+    app.add_option("-o,--output", merge.output, "Folder for results, tables and plots (default: that of the first file)");
+    add_common(app, merge.common, false);
+}
+
 int run(int argc, char** argv)
 {
     CLI::App app{"gnomon: real-time shadows, measured against ray-traced truth", "gnomon"};
@@ -133,6 +151,13 @@ int run(int argc, char** argv)
         ->capture_default_str();
     add_common(*bench_app, bench.common);
 
+    cli::Sweep sweep;
+    cli::Merge merge;
+    CLI::App *sweep_app = app.add_subcommand("sweep", "Every combination of an experiment file: results, tables, plots"),
+             *merge_app = app.add_subcommand("merge", "Put the result files of a sweep's shards together");
+    add_sweep(*sweep_app, sweep);
+    add_merge(*merge_app, merge);
+
     cli::Folder fresh, picture, docs, bless;
     CLI::App* new_app = app.add_subcommand("new", "Start a technique: copies the template to techniques/ID");
     new_app->add_option("id", fresh.ids, "Its id: lower-case letters, digits, underscores")->required()->expected(1);
@@ -167,6 +192,8 @@ int run(int argc, char** argv)
     if (*truth_app) return cli::truth(truth);
     if (*compare_app) return cli::compare(compare);
     if (*bench_app) return cli::bench(bench);
+    if (*sweep_app) return cli::sweep(sweep);
+    if (*merge_app) return cli::merge(merge);
     if (*new_app) return cli::new_technique(fresh);
     if (*picture_app) return cli::picture(picture);
     if (*docs_app) return cli::docs(docs);

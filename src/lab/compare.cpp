@@ -17,6 +17,14 @@ namespace gnomon::lab {
 
 std::string_view commit() { return GNOMON_COMMIT; }
 
+std::string unmeasurable(const Choice& choice, const gpu::Device& device, const scene::Light& light)
+{
+    const shadow::Output output = choice.info->output;
+    const std::string reason = shadow::refusal(*choice.info, device, light);
+    if (!reason.empty() || output == shadow::Output::visibility || output == shadow::Output::transmittance) return reason;
+    return fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(output));
+}
+
 namespace {
 
 std::string file_name(std::string text)
@@ -85,12 +93,7 @@ private:
         progress.advance();
         for (const Choice& choice : choices_) {
             Run run = new_run(stage_, choice, light_);
-            run.skipped = shadow::refusal(*choice.info, device_, light);
-            const bool comparable
-                = choice.info->output == shadow::Output::visibility || choice.info->output == shadow::Output::transmittance;
-            if (run.skipped.empty() && !comparable)
-                run.skipped
-                    = fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(choice.info->output));
+            run.skipped = unmeasurable(choice, device_, light);
             if (run.skipped.empty()) run_choice(choice, light, run);
             out_.runs.push_back(std::move(run));
             progress.advance();

@@ -84,6 +84,10 @@ struct ScoreOptions {
 /// count as edges (their orientation is decided by the last bits).
 void score(const Stage&, const scene::Light&, const truth::Reference&, const Rendered&, Run& out, const ScoreOptions& = {});
 
+/// "" or why this technique has no image on this device and for this light that truth can judge.
+std::string unmeasurable(const Choice&, const gpu::Device&, const scene::Light&);
+
+nlohmann::ordered_json run_json(const Run&);
 nlohmann::ordered_json results_json(const Comparison&);
 std::string results_table(const Comparison&); ///< for a terminal
 

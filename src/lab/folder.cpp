@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/names.h"
+#include "lab/json_keys.h"
 
 #include <nlohmann/json.hpp>
 
@@ -31,13 +31,6 @@ fs::path project_root()
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void known_keys(const Json& object, const std::vector<std::string>& keys, const fs::path& file)
-{
-    for (const auto& [key, value] : object.items())
-        if (std::find(keys.begin(), keys.end(), key) == keys.end())
-            base::fail("{}: {}", file.string(), base::unknown_name("key", key, keys));
-}
 
 TechniqueScene parse(const Json& json, const fs::path& file)
 {

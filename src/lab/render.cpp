@@ -155,6 +155,15 @@ Choice parse_choice(const std::string& text)
     return choice;
 }
 
+std::string choice_text(const Choice& choice)
+{
+    std::string out(choice.info->id);
+    const ParamValues defaults(choice.info->params());
+    for (const ParamInfo& p : choice.params.table().fields)
+        if (choice.params.get(p) != defaults.get(p)) out += fmt::format(":{}={}", p.name, choice.params.text(p));
+    return out;
+}
+
 Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
 {
     Rendered out;
@@ -163,9 +172,10 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
     const gpu::Submitted first = renderer.draw(vec2(0), settings.frame_index, &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
-    if (settings.repeats <= 1)
-        runs.push_back(first.times);
-    else
+    const int warm_up = std::max(settings.warm_up, settings.repeats > 1 ? 1 : 0);
+    if (warm_up == 0) runs.push_back(first.times);
+    for (int i = 1; i < warm_up; ++i) renderer.draw(vec2(0), settings.frame_index, nullptr);
+    if (warm_up > 0)
         for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
     collect(out, runs, choice.info->id);
     out.technique_bytes = first.group_bytes.count(std::string(choice.info->id)) ? first.group_bytes.at(std::string(choice.info->id)) : 0;

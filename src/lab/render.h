@@ -20,6 +20,7 @@ struct Choice {
 };
 /// "pcss" or "pcss:light_radius=0.2:filter_taps=16". Throws base::Error.
 Choice parse_choice(const std::string& text);
+std::string choice_text(const Choice&); ///< what parse_choice reads: the id, and the parameters that differ from their defaults
 
 /// Statistics of one pass over the repetitions.
 struct PassStats {
@@ -30,6 +31,7 @@ struct PassStats {
 struct RenderSettings {
     int samples = 1; ///< supersampling: pictures averaged, jittered by a Halton sequence; each has a frame number of its own
     int repeats = 1; ///< timed repetitions of the first sample, after one warm-up when more than one
+    int warm_up = 0; ///< frames before the timed ones; one at least where there is more than one repetition
     uint32_t frame_index = 0;
     bool lit = true; ///< shade; otherwise only the techniques' images are made
     std::set<std::string> aovs; ///< aov_names()

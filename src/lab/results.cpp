@@ -7,8 +7,6 @@
 
 namespace gnomon::lab {
 
-namespace {
-
 nlohmann::ordered_json run_json(const Run& run)
 {
     nlohmann::ordered_json out = {{"technique", run.technique}, {"scene", run.scene}, {"camera", run.camera}, {"light", run.light},
@@ -30,6 +28,8 @@ nlohmann::ordered_json run_json(const Run& run)
     out["truth"] = {{"samples", run.truth_samples}, {"noise", run.truth_noise}};
     return out;
 }
+
+namespace {
 
 std::string cell(const Run& run, const char* metric, const char* format)
 {

@@ -18,6 +18,14 @@ Stage open_stage(const StageOptions& options)
     stage.scene = scene::load(options.scene, options.load);
     stage.scene_name = stage.scene.name.empty() ? options.scene : stage.scene.name;
     stage.bounds = stage.scene.bounds();
+    aim_stage(stage, options);
+    return stage;
+}
+
+void aim_stage(Stage& stage, const StageOptions& options)
+{
+    check_size(options.size);
+    stage.lights.clear();
     if (options.camera.empty())
         stage.camera = stage.scene.cameras.empty() ? scene::fit_camera(stage.bounds) : stage.scene.cameras.front();
     else
@@ -27,7 +35,6 @@ Stage open_stage(const StageOptions& options)
         if (stage.lights.empty() && (options.kinds & (1u << unsigned(light.kind())))) stage.lights.push_back(light);
     if (stage.lights.empty()) stage.lights.push_back(scene::parse_light("directional,elevation=50,azimuth=35,angle=0", {}, stage.bounds));
     stage.view = scene::make_view(stage.camera, options.size, stage.bounds);
-    return stage;
 }
 
 } // namespace gnomon::lab

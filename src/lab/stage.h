@@ -32,6 +32,9 @@ struct Stage {
 /// Throws base::Error on any part that does not exist or does not fit. The largest side allowed is 16384.
 Stage open_stage(const StageOptions&);
 
+/// Gives an opened stage the camera, lights and size of these options; their scene is taken to be the stage's.
+void aim_stage(Stage&, const StageOptions&);
+
 /// Throws base::Error where the size is empty or absurd.
 void check_size(base::Size);
 

@@ -135,7 +135,8 @@ TEST(CommandLine, HelpIsThereForAll)
     const Finished top = run_gnomon({"--help"}, scratch.folder());
     EXPECT_EQ(top.code, 0);
     EXPECT_EQ(top.err, "");
-    for (const char* command : {"list", "render", "truth", "compare", "bench", "new", "picture", "docs", "bless", "convert"}) {
+    for (const char* command :
+        {"list", "render", "truth", "compare", "bench", "new", "picture", "docs", "bless", "convert", "sweep", "merge"}) {
         EXPECT_NE(top.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
         const Finished f = run_gnomon({command, "--help"}, scratch.folder());
         EXPECT_EQ(f.code, 0) << command;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/render.h"
+#include "lab/stage.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+// An experiment file (docs/experiments.md): techniques, parameters, scenes, lights, cameras and sizes, and every combination of them.
+namespace gnomon::lab {
+
+/// Which rows: a row is taken where the text of each of these columns is one of those named.
+using Where = std::map<std::string, std::vector<std::string>>;
+
+/// Rows that agree in `rows` are one, their numbers the mean of theirs.
+struct TableSpec {
+    std::string title;
+    std::vector<std::string> rows, columns;
+    Where where;
+};
+
+struct PlotSpec {
+    std::string file; ///< without ".svg"
+    std::string title, x, y, x_label, y_label;
+    std::vector<std::string> series;
+    std::vector<std::string>
+        points; ///< where x is a number that was measured: runs that agree in these are one point, their mean; empty = each its own
+    Where where;
+    bool log_x = false, log_y = false;
+};
+
+/// One combination.
+struct Cell {
+    std::map<std::string, std::string> columns; ///< what it is, as text: technique, scene, camera, light, size and each axis
+    StageOptions stage;
+    Choice choice;
+    std::optional<Choice> reference;
+    std::string key; ///< hash of all that the result follows from but device and program; equal cells are one run
+};
+
+struct Experiment {
+    std::string name, title;
+    std::filesystem::path file;
+    std::vector<std::string> axes;
+    std::vector<Cell> cells; ///< those of one stage follow one another
+    std::vector<std::string> metrics; ///< what its tables show
+    int truth_samples = 256, warm_up = 1, repeats = 3;
+    uint32_t frame_index = 0;
+    bool flip = false; ///< whether FLIP, which has to light the pictures, is asked for
+    std::vector<TableSpec> tables;
+    std::vector<PlotSpec> plots;
+};
+
+/// Reads, expands and checks: every technique, parameter, scene, light, camera, metric and column is looked up, so that a sweep does not
+/// fail hours later on a name. Throws base::Error. Needs no device.
+Experiment read_experiment(const std::filesystem::path&);
+
+/// Column names that a row has besides the axes.
+const std::vector<std::string>& identity_columns(); ///< texts: technique, scene, camera, light, size
+const std::vector<std::string>& number_columns(); ///< ms, ms_deviation, mib, ..., and every metric; "pass:NAME" is one too
+
+} // namespace gnomon::lab

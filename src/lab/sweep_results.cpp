@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sweep.h"
+
+#include "base/error.h"
+#include "base/line_file.h"
+#include "lab/compare.h"
+#include "lab/folder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
+
+namespace gnomon::lab {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string processor()
+{
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+    return "unknown";
+}
+
+bool is_result(const Json& json)
+{
+    if (!json.is_object() || json.value("format", Json()) != 1) return false;
+    for (const char* key : {"key", "device", "driver", "commit", "technique"})
+        if (!json.contains(key) || !json[key].is_string()) return false;
+    if (json.contains("skipped")) return json["skipped"].is_string();
+    return json.contains("metrics") && json["metrics"].is_object() && json.contains("passes") && json["passes"].is_array();
+}
+
+std::optional<double> number_at(const Json& object, const std::string& key)
+{
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return {};
+    return found->get<double>();
+}
+
+std::optional<double> pass_ms(const Json& line, const std::string& name)
+{
+    for (const Json& pass : line.at("passes"))
+        if (pass.is_object() && pass.value("name", Json()) == name) return number_at(pass, "ms");
+    return {};
+}
+
+} // namespace
+
+Provenance provenance(const gpu::Device& device)
+{
+    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION, std::string(commit())};
+}
+
+void Results::add(const std::string& line, const fs::path& file, size_t number)
+{
+    Json json = Json::parse(line, nullptr, false);
+    if (!is_result(json))
+        base::fail(
+            "{}, line {} is no result of `gnomon sweep`; delete that line (its run is then made again), or choose another folder with -o",
+            file.string(), number);
+    std::string key = json["key"];
+    lines_[std::move(key)] = std::move(json);
+}
+
+void Results::add_file(const fs::path& file, const std::vector<std::string>& lines)
+{
+    for (size_t i = 0; i < lines.size(); ++i) add(lines[i], file, i + 1);
+}
+
+const Json* Results::find(const std::string& key) const
+{
+    const auto found = lines_.find(key);
+    return found == lines_.end() ? nullptr : &found->second;
+}
+
+void Results::demand_device(const std::string& device, const std::string& driver, const fs::path& file) const
+{
+    for (const auto& [key, line] : lines_)
+        if (line.at("device") != device || line.at("driver") != driver)
+            base::fail("{} holds results of {} ({}), which are never mixed with those of {} ({}); choose another folder with -o",
+                file.string(), line.at("device").get<std::string>(), line.at("driver").get<std::string>(), device, driver);
+}
+
+std::vector<const Cell*> distinct_runs(const Experiment& experiment)
+{
+    std::vector<const Cell*> out;
+    std::set<std::string> seen;
+    for (const Cell& cell : experiment.cells)
+        if (seen.insert(cell.key).second) out.push_back(&cell);
+    return out;
+}
+
+std::string cell_name(const Experiment& experiment, const Cell& cell)
+{
+    std::string out;
+    for (const std::string& column : identity_columns()) out += (out.empty() ? "" : ", ") + cell.columns.at(column);
+    for (const std::string& axis : experiment.axes) out += fmt::format(", {}={}", axis, cell.columns.at(axis));
+    return out;
+}
+
+fs::path default_results_folder(const std::string& device, const Experiment& experiment)
+{
+    std::string name;
+    for (const char c : device.substr(0, device.find(" (")))
+        name += std::isalnum(static_cast<unsigned char>(c)) ? char(std::tolower(static_cast<unsigned char>(c))) : '_';
+    return project_root() / "experiments" / "results" / name / experiment.name;
+}
+
+std::optional<double> Row::number(const std::string& column) const
+{
+    if (line->contains("skipped")) return {};
+    if (column == "ms") return number_at(*line, "technique_ms");
+    if (column == "ms_deviation") return number_at(*line, "technique_deviation");
+    if (column == "gbuffer_ms") return pass_ms(*line, "gbuffer");
+    if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/" + column.substr(5));
+    if (column == "scored_pixels" || column == "excluded_pixels") return number_at(*line, column);
+    if (column != "mib") return number_at(line->at("metrics"), column);
+    const std::optional<double> bytes = number_at(*line, "bytes");
+    return bytes ? std::optional<double>(*bytes / 1048576.0) : bytes;
+}
+
+std::optional<double> RowGroup::mean(const std::string& column) const
+{
+    double sum = 0;
+    size_t count = 0;
+    for (const Row& row : rows)
+        if (const std::optional<double> value = row.number(column)) sum += *value, ++count;
+    return count ? std::optional<double>(sum / double(count)) : std::nullopt;
+}
+
+std::vector<Row> result_rows(const Experiment& experiment, const Results& results)
+{
+    std::vector<Row> out;
+    for (const Cell& cell : experiment.cells)
+        if (const Json* line = results.find(cell.key)) out.push_back({&cell, line});
+    return out;
+}
+
+std::vector<RowGroup> grouped(const std::vector<Row>& rows, const std::vector<std::string>& columns, const Where& where)
+{
+    std::vector<RowGroup> out;
+    std::map<std::vector<std::string>, size_t> places;
+    for (const Row& row : rows) {
+        const bool taken = std::all_of(where.begin(), where.end(),
+            [&](const auto& w) { return std::find(w.second.begin(), w.second.end(), row.cell->columns.at(w.first)) != w.second.end(); });
+        if (!taken) continue;
+        std::vector<std::string> key;
+        for (const std::string& column : columns) key.push_back(row.cell->columns.at(column));
+        const auto [place, fresh] = places.try_emplace(key, out.size());
+        if (fresh) out.push_back({key, {}});
+        out[place->second].rows.push_back(row);
+    }
+    return out;
+}
+
+} // namespace gnomon::lab
