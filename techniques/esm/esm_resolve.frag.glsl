@@ -4,16 +4,12 @@
 #include "techniques/esm/esm.shared.h"
 
 #include "shaders/filter_resolve.glsl"
+#include "techniques/esm/esm.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2DArray values_image; // before averaging
 layout(set = 0, binding = 5) uniform sampler2DArray largest_image; // in each window; read for max_depth
 
-// exp(c (z - t) / 2) from what the map holds: the logarithm's difference first, so that nothing overflows.
-float exponential(float value, float t)
-{
-    const float exponent = 0.5 * c.params.exponent * t;
-    return c.params.space == 0 ? value * exp(-exponent) : exp(min(value - exponent, 80.0));
-}
+float exponential(float value, float t) { return esm_exponential(value, t, c.params.exponent, c.params.space == 1); }
 
 float mean_exponential(FilterPoint at)
 {

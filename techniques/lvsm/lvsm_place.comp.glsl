@@ -27,7 +27,9 @@ void main()
         if (counts[i] > 0) first = min(first, i), last = i;
     }
     const int layers = c.params.layers;
-    if (last < 0 || c.params.split == 0) first = 0, last = LVSM_BINS - 1;
+    // Relaxation begins with even layers over the depths that occur. Where they hardly differ, over the whole range instead: a layer not
+    // much wider than the least deviation bounds nothing.
+    if (last - first < 4 * layers || c.params.split == 0) first = 0, last = LVSM_BINS - 1;
     float edge[LVSM_MAX_LAYERS + 1];
     for (int i = 0; i <= layers; ++i) edge[i] = mix(float(first), float(last + 1), float(i) / float(layers));
     const int rounds = c.params.split == 0 ? 0 : 32;

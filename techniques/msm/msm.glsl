@@ -39,10 +39,13 @@ float msm_visibility(vec4 b, float t, float bias)
     x.z *= inv_d22;
     x.y -= l21 * x.z;
     x.x -= dot(x.yz, b.xy);
-    // the two other depths are the roots of x.x + x.y z + x.z z^2
-    const float p = x.y / x.z, q = x.x / x.z;
-    const float root = sqrt(max(0.25 * p * p - q, 0.0));
-    const float z1 = -0.5 * p - root, z2 = -0.5 * p + root;
+    // The two other depths are the roots of x.x + x.y z + x.z z^2. Where t is one of only two depths, x.z vanishes and one root leaves for
+    // infinity: the other one is taken without subtraction, and infinity is a million.
+    x /= max(max(abs(x.x), abs(x.y)), abs(x.z));
+    const float root = sqrt(max(x.y * x.y - 4.0 * x.x * x.z, 0.0));
+    const float s = -0.5 * (x.y + (x.y < 0.0 ? -root : root));
+    const float small = s == 0.0 ? 0.0 : x.x / s, large = s / (abs(x.z) < 1e-6 * abs(s) ? 1e-6 * abs(s) : x.z);
+    const float z1 = min(small, large), z2 = max(small, large);
     float mass = 0.0; // before t
     if (z2 < t) mass = 1.0 + (z1 * z2 - b.x * (z1 + z2) + b.y) / ((z2 - t) * (t - z1));
     else if (z1 < t) mass = (t * z2 - b.x * (t + z2) + b.y) / ((z2 - z1) * (t - z1));
