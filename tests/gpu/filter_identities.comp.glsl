@@ -98,7 +98,7 @@ void main()
     r.esm_log = min(esm(w, true), 1.0);
     r.csm = csm(w);
     r.lvsm = lvsm(w);
-    r.power = power_visibility(b.x, range.x, range.y, w.t);
+    r.power = power_visibility(b.x, range.x, range.y, w.t, 0.0);
     r.moments = b;
     r.quantised = q;
     r.returned = moments_from_quantised(q);

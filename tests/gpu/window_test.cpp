@@ -30,6 +30,19 @@ constexpr Format r32f = {VK_FORMAT_R32_SFLOAT, "r32f", 1, 0}, rg32f = {VK_FORMAT
 using Layers = std::vector<base::Picture>;
 using Operation = gpu::ImageId (*)(gpu::PassList&, gpu::ImageId, int);
 
+gpu::ImageId window_mean(gpu::PassList& passes, gpu::ImageId values, int width)
+{
+    return shadow::parts::window_mean(passes, values, width);
+}
+gpu::ImageId window_log_mean_exp(gpu::PassList& passes, gpu::ImageId logs, int width)
+{
+    return shadow::parts::window_log_mean_exp(passes, logs, width);
+}
+gpu::ImageId window_gaussian(gpu::PassList& passes, gpu::ImageId values, int width)
+{
+    return shadow::parts::window_gaussian(passes, values, width);
+}
+
 std::vector<std::byte> encoded(const base::Picture& p, const Format& format)
 {
     const auto texels_as = [&](auto type) {
@@ -154,8 +167,8 @@ TEST_F(Window, MeansAreThoseOfTheLoop)
             // Floats: each axis rounds a sum of `width` terms of at most 1 after each addition, and the division.
             // Fixed point: each axis rounds to half a step, and the second one averages the first's errors.
             const double floats = 2 * (width + 1) * unit_roundoff;
-            expect_like(mean_of, box(width), in, run(shadow::parts::window_mean, in, format, width),
-                format.steps == 0 ? floats : 1.0 / format.steps + floats);
+            expect_like(
+                mean_of, box(width), in, run(window_mean, in, format, width), format.steps == 0 ? floats : 1.0 / format.steps + floats);
         });
     }
 }
@@ -180,7 +193,7 @@ TEST_F(Window, MeansOfExponentialsComeFromTheirLogarithms)
             // Each of an axis's `width` joins rounds a number as large as the greatest value, after a logarithm that drivers give to
             // about 2^-21; the roundings of both axes pass through unchanged.
             const double magnitude = std::max(std::abs(double(least)), std::abs(double(greatest))) + std::log(127.0 * 127.0);
-            expect_like(log_mean_exp_of, box(width), in, run(shadow::parts::window_log_mean_exp, in, r32f, width),
+            expect_like(log_mean_exp_of, box(width), in, run(window_log_mean_exp, in, r32f, width),
                 2 * (width + 1) * (magnitude * unit_roundoff + 0x1p-21));
         });
 }
@@ -201,8 +214,8 @@ TEST_F(Window, GaussiansAreThoseOfTheLoop)
             for (double& w : weights) w /= sum;
             // Products and sums round once each, and so did the weights.
             const double floats = 2 * (2 * width + 1) * unit_roundoff;
-            expect_like(mean_of, weights, in, run(shadow::parts::window_gaussian, in, format, width),
-                format.steps == 0 ? floats : 1.0 / format.steps + floats);
+            expect_like(
+                mean_of, weights, in, run(window_gaussian, in, format, width), format.steps == 0 ? floats : 1.0 / format.steps + floats);
         });
 }
 
@@ -220,7 +233,7 @@ TEST_F(Window, SmallExponentialsBesideLargeOnesKeepTheirPrecision)
                 p.at(x, y) = uniform(random) * std::exp(large ? 80.0f : -80.0f);
             }
     for (const int width : {2, 3, 8, 31}) {
-        const Layers out = run(shadow::parts::window_mean, in, r32f, width);
+        const Layers out = run(window_mean, in, r32f, width);
         size_t small = 0;
         for (size_t layer = 0; layer < in.size(); ++layer)
             for (int y = 0; y < 65; ++y)
