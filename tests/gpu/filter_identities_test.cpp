@@ -125,6 +125,7 @@ TEST_F(FilterIdentities, FlatWindowsForgiveRounding)
         EXPECT_GT(r.evsm4, 0.999f);
         EXPECT_GT(r.msm, 0.999f);
         EXPECT_GT(r.esm, 0.9999f);
+        EXPECT_EQ(r.power, 1.0f);
     }
 }
 
