@@ -14,7 +14,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
+    fields.integer("map_size", p.map_size, {16, 2048}, "texels", "Width and height of each depth layer.");
     fields.choice(
         "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
     fields.integer(
