@@ -81,6 +81,17 @@ struct Merge {
 };
 int merge(const Merge&);
 
+struct Slice {
+    Common common;
+    Picture picture;
+    std::string technique = "shadow_map", output, centre, right, up;
+    std::vector<std::string> parameters; ///< name=value
+    float height = 0;
+    bool truth = false;
+    int truth_samples = 256;
+};
+int slice(const Slice&);
+
 struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques

@@ -20,11 +20,11 @@ void add_common(CLI::App& app, cli::Common& common, bool device = true)
     app.add_flag("--json", common.json, "Print the result as JSON");
 }
 
-void add_picture(CLI::App& app, cli::Picture& picture)
+void add_picture(CLI::App& app, cli::Picture& picture, bool camera = true)
 {
     app.add_option("scene", picture.scene, "A built-in scene (see `gnomon list --scenes`), a .glb or .gltf file, or a scene .json")
         ->required();
-    app.add_option("--camera", picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
+    if (camera) app.add_option("--camera", picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
     app.add_option("--light", picture.lights,
         "A light of the scene by name, or kind,key=value,... (sun,elevation=40,azimuth=120,angle=0.53); may be repeated");
     app.add_option("--size", picture.size, "Width and height in pixels, as 960x540")->capture_default_str();
@@ -50,6 +50,24 @@ std::vector<std::string> technique_options(const CLI::App& app, const std::strin
         out.push_back(item);
     }
     return out;
+}
+
+void add_slice(CLI::App& app, cli::Slice& slice)
+{
+    add_picture(app, slice.picture, false);
+    app.add_option("--technique", slice.technique, "Technique, by its id")->capture_default_str();
+    app.add_option("--centre", slice.centre, "A point of the plane, x/y/z (default: the scene's centre)");
+    app.add_option("--right", slice.right, "Direction that is right in the picture, x/y/z (default: level, towards the light)");
+    app.add_option("--up", slice.up, "Direction that is up in it, x/y/z (default: 0/1/0)");
+    app.add_option("--height", slice.height, "Metres from bottom to top (default: the scene fits)")->check(CLI::Range(0.0, 1e9));
+    app.add_flag("--truth", slice.truth, "Also the ray-traced twin, and the difference to it");
+    app.add_option("--truth-samples", slice.truth_samples, "Light samples a point of the truth")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option(
+        "-o,--output", slice.output, "PNG file; an EXR with the values is written beside it (default: out/SCENE.slice.TECHNIQUE.png)");
+    app.allow_extras();
+    add_common(app, slice.common);
 }
 
 void add_sweep(CLI::App& app, cli::Sweep& sweep)
@@ -151,6 +169,11 @@ int run(int argc, char** argv)
         ->capture_default_str();
     add_common(*bench_app, bench.common);
 
+    cli::Slice slice;
+    CLI::App* slice_app
+        = app.add_subcommand("slice", "The shadow value at every point of a plane through the scene, as if a receiver stood there");
+    add_slice(*slice_app, slice);
+
     cli::Sweep sweep;
     cli::Merge merge;
     CLI::App *sweep_app = app.add_subcommand("sweep", "Every combination of an experiment file: results, tables, plots"),
@@ -192,6 +215,10 @@ int run(int argc, char** argv)
     if (*truth_app) return cli::truth(truth);
     if (*compare_app) return cli::compare(compare);
     if (*bench_app) return cli::bench(bench);
+    if (*slice_app) {
+        slice.parameters = technique_options(*slice_app, slice.technique);
+        return cli::slice(slice);
+    }
     if (*sweep_app) return cli::sweep(sweep);
     if (*merge_app) return cli::merge(merge);
     if (*new_app) return cli::new_technique(fresh);

@@ -35,6 +35,8 @@ TEST(CommandLine, UnknownNamesListTheNearOnes)
         {{"compare", "balls", "--techniques", "ray_traced,shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"compare", "balls", "--techniques", "shadow_map", "--reference", "shadow_mop"}, 1,
             {"unknown technique 'shadow_mop'", "'shadow_map'"}},
+        {{"slice", "balls", "--technique", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
+        {{"slice", "balls", "--shadow_map.map_sise", "64"}, 1, {"unknown parameter 'map_sise'", "'map_size'"}},
         {{"bench", "balls", "--techniques", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"picture", "shadow_mop"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"bless", "shadow_mop", "--because", "x"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
@@ -80,6 +82,10 @@ TEST(CommandLine, ValuesOutOfRangeStateTheRange)
         {{"render", "balls", "--shadow_map.map_size=15"}, 1, {"'map_size'", "16 to 8192"}},
         {{"render", "balls", "--shadow_map.normal_offset", "nan"}, 1, {"'normal_offset'", "0 to 16"}},
         {{"render", "balls", "--samples", "0"}, 2, {"--samples", "1 to 4096"}},
+        {{"slice", "balls", "--centre", "1/2"}, 1, {"--centre", "1/2"}},
+        {{"slice", "balls", "--right", "0/1/0"}, 1, {"axes", "plane"}},
+        {{"slice", "balls", "--camera", "fit"}, 2, {"--camera"}},
+        {{"slice", "balls", "-o", "x.exr"}, 1, {"x.exr", ".png"}},
         {{"truth", "balls", "--detail", "0"}, 1, {"detail", "0.05 to 256"}},
         {{"truth", "balls", "--detail", "nan"}, 1, {"detail", "0.05 to 256"}},
         {{"truth", "balls", "--time", "inf"}, 1, {"time", "finite"}},
@@ -136,7 +142,7 @@ TEST(CommandLine, HelpIsThereForAll)
     EXPECT_EQ(top.code, 0);
     EXPECT_EQ(top.err, "");
     for (const char* command :
-        {"list", "render", "truth", "compare", "bench", "new", "picture", "docs", "bless", "convert", "sweep", "merge"}) {
+        {"list", "render", "truth", "compare", "bench", "new", "picture", "docs", "bless", "convert", "slice", "sweep", "merge"}) {
         EXPECT_NE(top.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
         const Finished f = run_gnomon({command, "--help"}, scratch.folder());
         EXPECT_EQ(f.code, 0) << command;
