@@ -136,7 +136,8 @@ TEST_P(SceneBuiltin, TriangleCountIsThatOfTheManual)
 {
     const std::map<std::string, size_t> stated = {{"plane", 2}, {"tilted_planes", 38}, {"closed_box", 1000}, {"half_plane", 4},
         {"rect_blocker", 4}, {"disk_blocker", 258}, {"stacked_panes", 800}, {"balls", 61000}, {"contact", 5000}, {"open_mesh", 2500},
-        {"colonnade", 53000}, {"duelling_frusta", 40000}, {"fence", 26000}, {"tree", 35000}, {"terrain", 68000}, {"citadel", 68000}};
+        {"colonnade", 53000}, {"duelling_frusta", 40000}, {"fence", 26000}, {"tree", 35000}, {"terrain", 68000}, {"citadel", 68000},
+        {"stacked", 650}, {"grazing", 2600}};
     const auto entry = stated.find(std::string(GetParam().name));
     ASSERT_NE(entry, stated.end());
     EXPECT_NEAR(double(GetParam().make(1.0).triangle_count()), double(entry->second), 0.05 * double(entry->second));

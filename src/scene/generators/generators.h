@@ -22,5 +22,7 @@ Scene fence(double detail);
 Scene tree(double detail);
 Scene terrain(double detail);
 Scene citadel(double detail);
+Scene stacked(double detail);
+Scene grazing(double detail);
 
 } // namespace gnomon::scene::generators

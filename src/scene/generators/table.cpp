@@ -31,6 +31,10 @@ const std::vector<Builtin>& builtins()
         {"fence", "Chain link, railings, nets and wires: casters thinner than a texel, by mask and by geometry.", false, false,
             generators::fence},
         {"terrain", "Huts, rocks and tufts before hills kilometres away: cascades and depth range.", false, false, generators::terrain},
+        {"stacked", "Three thin casters at different heights that overlap, over a ground and a step: light bleeding of filtered maps.",
+            false, true, generators::stacked},
+        {"grazing", "Boards at 0 to 85 degrees to the sun, with casters on and before them: acne, bias and lost contact.", false, true,
+            generators::grazing},
     };
     return table;
 }
