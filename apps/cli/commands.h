@@ -92,6 +92,12 @@ struct Slice {
 };
 int slice(const Slice&);
 
+struct Figures {
+    Common common;
+    std::string file, output;
+};
+int figures(const Figures&);
+
 struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques

@@ -174,6 +174,12 @@ int run(int argc, char** argv)
         = app.add_subcommand("slice", "The shadow value at every point of a plane through the scene, as if a receiver stood there");
     add_slice(*slice_app, slice);
 
+    cli::Figures figures;
+    CLI::App* figures_app = app.add_subcommand("figures", "Pictures beside one another, and their page, from a figures file");
+    figures_app->add_option("file", figures.file, "A figures file, as experiments/*/figures.json")->required();
+    figures_app->add_option("-o,--output", figures.output, "Folder for the page and its pictures (default: the file's own)");
+    add_common(*figures_app, figures.common);
+
     cli::Sweep sweep;
     cli::Merge merge;
     CLI::App *sweep_app = app.add_subcommand("sweep", "Every combination of an experiment file: results, tables, plots"),
@@ -219,6 +225,7 @@ int run(int argc, char** argv)
         slice.parameters = technique_options(*slice_app, slice.technique);
         return cli::slice(slice);
     }
+    if (*figures_app) return cli::figures(figures);
     if (*sweep_app) return cli::sweep(sweep);
     if (*merge_app) return cli::merge(merge);
     if (*new_app) return cli::new_technique(fresh);

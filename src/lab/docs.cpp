@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 namespace gnomon::lab {
 
 namespace fs = std::filesystem;
@@ -63,12 +65,15 @@ std::string error_table(const Json& results)
 {
     if (results.is_null()) return "Not measured yet: `gnomon picture` does.\n";
     std::string out = "| scene | light | metric | value |\n| --- | --- | --- | --- |\n";
+    std::set<std::string> references;
     for (const Json& run : results.at("runs")) {
         if (run.contains("skipped")) continue;
         for (const auto& [metric, value] : run.at("metrics").items())
             out += fmt::format("| {} | {} | {} | {:.5g} |\n", run.at("scene").get<std::string>(), run.at("light").get<std::string>(),
                 metric, value.get<double>());
+        if (run.contains("reference")) references.insert(run.at("reference").get<std::string>());
     }
+    if (!references.empty()) out += fmt::format("\nThe filter metrics are against `{}`.\n", fmt::join(references, "`, `"));
     return out;
 }
 

@@ -76,18 +76,6 @@ Named named(const Json& entry, const std::string& key, const std::vector<std::st
     return out;
 }
 
-base::Size parse_size(const std::string& text)
-{
-    base::Size size;
-    const char* end = text.data() + text.size();
-    const auto [cross, first] = std::from_chars(text.data(), end, size.width);
-    if (first != std::errc() || cross == end || *cross != 'x') base::fail("a size is WIDTHxHEIGHT in pixels, as 640x360, not '{}'", text);
-    const auto [last, second] = std::from_chars(cross + 1, end, size.height);
-    if (second != std::errc() || last != end) base::fail("a size is WIDTHxHEIGHT in pixels, as 640x360, not '{}'", text);
-    check_size(size);
-    return size;
-}
-
 /// Every combination of the axes, the last one fastest.
 std::vector<AxisValues> combinations(const Json& json, Experiment& out)
 {

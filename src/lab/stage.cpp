@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 
+#include <charconv>
+
 namespace gnomon::lab {
 
 void check_size(base::Size size)
@@ -35,6 +37,18 @@ void aim_stage(Stage& stage, const StageOptions& options)
         if (stage.lights.empty() && (options.kinds & (1u << unsigned(light.kind())))) stage.lights.push_back(light);
     if (stage.lights.empty()) stage.lights.push_back(scene::parse_light("directional,elevation=50,azimuth=35,angle=0", {}, stage.bounds));
     stage.view = scene::make_view(stage.camera, options.size, stage.bounds);
+}
+
+base::Size parse_size(const std::string& text)
+{
+    base::Size size;
+    const char* end = text.data() + text.size();
+    const auto [cross, first] = std::from_chars(text.data(), end, size.width);
+    if (first != std::errc() || cross == end || *cross != 'x') base::fail("a size is WIDTHxHEIGHT in pixels, as 640x360, not '{}'", text);
+    const auto [last, second] = std::from_chars(cross + 1, end, size.height);
+    if (second != std::errc() || last != end) base::fail("a size is WIDTHxHEIGHT in pixels, as 640x360, not '{}'", text);
+    check_size(size);
+    return size;
 }
 
 } // namespace gnomon::lab

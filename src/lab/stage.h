@@ -38,4 +38,7 @@ void aim_stage(Stage&, const StageOptions&);
 /// Throws base::Error where the size is empty or absurd.
 void check_size(base::Size);
 
+/// "640x360". Throws base::Error.
+base::Size parse_size(const std::string&);
+
 } // namespace gnomon::lab

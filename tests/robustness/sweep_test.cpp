@@ -258,6 +258,17 @@ TEST(Sweep, BadExperimentsAreOneSentence)
         expect_sentence(run_gnomon({"sweep", "small.json", "-o", "out", "--shard", shard}, scratch.folder()), 1, {"--shard", shard});
 }
 
+TEST(Sweep, TheManualsExampleIsOne)
+{
+    const Scratch scratch;
+    const std::string page = read_whole(fs::path(GNOMON_SOURCE) / "docs/experiments.md"), open = "```json\n";
+    const size_t begin = page.find(open) + open.size();
+    write(scratch, Json::parse(page.substr(begin, page.find("```", begin) - begin)));
+    const Finished f = run_gnomon({"sweep", "small.json", "--plan", "--json"}, scratch.folder());
+    EXPECT_EQ(f.code, 0) << f.err;
+    EXPECT_GT(Json::parse(f.out).at("runs").size(), 10u);
+}
+
 TEST(Sweep, WithoutGnuplotTheTablesAreThere)
 {
     const Scratch scratch;

@@ -88,6 +88,10 @@ std::vector<vec2> poisson_disk(int count)
         }
         points.push_back(best);
     }
+    // the mirror keeps them too far inside: the mean squared radius of the disk's area is one half
+    float square = 0;
+    for (const vec2 p : points) square += glm::dot(p, p) / float(points.size());
+    for (vec2& p : points) p *= std::sqrt(0.5f / square);
     sort_outermost_first(points);
     return points;
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/figures.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/names.h"
+#include "lab/json_keys.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace gnomon::lab {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const std::vector<std::string> shows = {"lit", "visibility", "error", "filter_error", "slice"};
+/// What a figure says for all its panels and a panel for itself.
+const std::vector<std::string> panel_keys = {"label", "technique", "show", "scene", "detail", "camera", "light", "size", "reference", "gain",
+    "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
+
+vec3 vector_of(const Json& v, const char* key, const fs::path& file)
+{
+    if (!v.is_array() || v.size() != 3) base::fail("{}: '{}' is not a list of three numbers", file.string(), key);
+    return vec3(v[0].get<float>(), v[1].get<float>(), v[2].get<float>());
+}
+
+Show show_of(const std::string& text, const fs::path& file)
+{
+    const auto at = std::ranges::find(shows, text);
+    if (at == shows.end()) base::fail("{}: {}", file.string(), base::unknown_name("show", text, shows));
+    return Show(at - shows.begin());
+}
+
+FigurePanel panel_of(const Json& j, const fs::path& file)
+{
+    FigurePanel p;
+    p.technique = j.value("technique", "");
+    if (p.technique.empty()) base::fail("{}: a panel names no technique, nor \"truth\"", file.string());
+    p.label = j.value("label", p.technique);
+    p.show = show_of(j.value("show", "lit"), file);
+    p.stage.scene = j.value("scene", "contact");
+    p.stage.load.detail = j.value("detail", 1.0);
+    p.stage.camera = j.value("camera", "");
+    if (j.contains("light")) p.stage.lights = {j["light"].get<std::string>()};
+    p.stage.size = parse_size(j.value("size", "320x240"));
+    p.reference = j.value("reference", "");
+    p.gain = j.value("gain", 1.0f);
+    p.zoom = std::clamp(j.value("zoom", 1), 1, 16);
+    if (j.contains("crop")) p.crop = j["crop"].get<std::array<int, 4>>();
+    if (j.contains("slice_centre")) p.slice.centre = vector_of(j["slice_centre"], "slice_centre", file);
+    if (j.contains("slice_right")) p.slice.right = vector_of(j["slice_right"], "slice_right", file);
+    if (j.contains("slice_up")) p.slice.up = vector_of(j["slice_up"], "slice_up", file);
+    p.slice.height = j.value("slice_height", 0.0f);
+    if (p.technique != "truth") parse_choice(p.technique);
+    if (p.show == Show::filter_error) {
+        if (p.reference.empty()) base::fail("{}: the panel '{}' shows filter_error and names no reference", file.string(), p.label);
+        parse_choice(p.reference);
+    }
+    return p;
+}
+
+Figure figure_of(const Json& j, const fs::path& file)
+{
+    std::vector<std::string> keys = panel_keys;
+    keys.insert(keys.end(), {"id", "title", "text", "columns", "panels"});
+    known_keys(j, keys, file);
+    Figure figure;
+    figure.id = j.value("id", ""), figure.title = j.value("title", ""), figure.text = j.value("text", "");
+    if (figure.id.empty() || figure.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
+        base::fail("{}: '{}' cannot be the id of a figure; ids are made of small letters, digits, '_', '-' and '.'", file.string(), figure.id);
+    figure.columns = std::clamp(j.value("columns", 3), 1, 8);
+    if (!j.contains("panels") || !j["panels"].is_array() || j["panels"].empty())
+        base::fail("{}: the figure '{}' has no list of panels", file.string(), figure.id);
+    for (const Json& own : j["panels"]) {
+        known_keys(own, panel_keys, file);
+        Json all = j;
+        all.update(own);
+        figure.panels.push_back(panel_of(all, file));
+    }
+    return figure;
+}
+
+} // namespace
+
+Figures read_figures(const fs::path& file)
+{
+    try {
+        const Json j = Json::parse(base::read_text(file));
+        known_keys(j, {"title", "about", "figures", "truth_samples"}, file);
+        Figures out{j.value("title", ""), j.value("about", ""), {}, std::clamp(j.value("truth_samples", 256), 1, 1 << 20)};
+        for (const Json& figure : j.at("figures")) out.figures.push_back(figure_of(figure, file));
+        return out;
+    } catch (const nlohmann::json::exception& e) {
+        base::fail("{}: {}", file.string(), e.what());
+    }
+}
+
+} // namespace gnomon::lab
