@@ -19,8 +19,10 @@ int figures(const Figures& options)
     demand_valid(*device);
     nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}};
     for (const fs::path& f : files) json["files"].push_back(f.string());
-    if (options.common.json) fmt::print("{}\n", json.dump(1));
-    else fmt::print("{} pictures and {}\n", files.size() - 1, files.back().string());
+    if (options.common.json)
+        fmt::print("{}\n", json.dump(1));
+    else
+        fmt::print("{} pictures and {}\n", files.size() - 1, files.back().string());
     return 0;
 }
 

@@ -96,8 +96,7 @@ private:
     const truth::Reference& truth(Open& open) const
     {
         if (!open.truth)
-            open.truth
-                = truth::reference(open.stage.scene, open.stage.view, open.stage.lights.front(), {.samples = truth_samples_});
+            open.truth = truth::reference(open.stage.scene, open.stage.view, open.stage.lights.front(), {.samples = truth_samples_});
         return *open.truth;
     }
 
@@ -113,8 +112,8 @@ private:
     base::Picture error_of(Open& open, const FigurePanel& panel, const Rendered& rendered) const
     {
         const truth::Reference& rays = truth(open);
-        const base::Picture other = panel.show == Show::error ? rays.visibility.mean
-                                                              : filter_reference(device_, *open.scene, open.stage, panel.reference).image;
+        const base::Picture other
+            = panel.show == Show::error ? rays.visibility.mean : filter_reference(device_, *open.scene, open.stage, panel.reference).image;
         const base::Picture no_variance;
         std::vector<uint8_t> mask(rays.primary.primitive.size());
         for (size_t i = 0; i < mask.size(); ++i) mask[i] = rays.primary.primitive[i] != truth::no_primitive;

@@ -19,8 +19,8 @@ namespace {
 
 const std::vector<std::string> shows = {"lit", "visibility", "error", "filter_error", "slice"};
 /// What a figure says for all its panels and a panel for itself.
-const std::vector<std::string> panel_keys = {"label", "technique", "show", "scene", "detail", "camera", "light", "size", "reference", "gain",
-    "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
+const std::vector<std::string> panel_keys = {"label", "technique", "show", "scene", "detail", "camera", "light", "size", "reference",
+    "gain", "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
 
 vec3 vector_of(const Json& v, const char* key, const fs::path& file)
 {
@@ -71,7 +71,8 @@ Figure figure_of(const Json& j, const fs::path& file)
     Figure figure;
     figure.id = j.value("id", ""), figure.title = j.value("title", ""), figure.text = j.value("text", "");
     if (figure.id.empty() || figure.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
-        base::fail("{}: '{}' cannot be the id of a figure; ids are made of small letters, digits, '_', '-' and '.'", file.string(), figure.id);
+        base::fail(
+            "{}: '{}' cannot be the id of a figure; ids are made of small letters, digits, '_', '-' and '.'", file.string(), figure.id);
     figure.columns = std::clamp(j.value("columns", 3), 1, 8);
     if (!j.contains("panels") || !j["panels"].is_array() || j["panels"].empty())
         base::fail("{}: the figure '{}' has no list of panels", file.string(), figure.id);

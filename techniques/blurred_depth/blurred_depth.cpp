@@ -25,7 +25,8 @@ class Method final : public TechniqueWith<Params> {
             {.shader = "techniques/blurred_depth/blurred_depth_values.frag",
                 .format = VK_FORMAT_R32_SFLOAT,
                 .constants = [](const FilterValues& layer) { return layer; }});
-        parts::resolve_filtered(passes, frame, map, "techniques/blurred_depth/blurred_depth_resolve.frag", ResolveConstants{map.constants, params});
+        parts::resolve_filtered(
+            passes, frame, map, "techniques/blurred_depth/blurred_depth_resolve.frag", ResolveConstants{map.constants, params});
     }
 };
 

@@ -40,18 +40,20 @@ float clamped_exponentials(FilterPoint at)
 {
     const int n = c.filtering.params.kernel;
     const vec2 corner = at.uv * c.filtering.map.size - 0.5 * float(n);
-    const ivec2 first = ivec2(floor(corner)), last = ivec2(c.filtering.map.size) - 1;
-    const vec2 f = corner - floor(corner);
+    const vec2 first = floor(corner), f = corner - first, from_receiver = first + 0.5 - at.uv * c.filtering.map.size;
     float sum = 0.0;
-    for (int y = 0; y <= n; ++y) {
-        float row = 0.0;
-        for (int x = 0; x <= n; ++x) {
-            const float weight = x == 0 ? 1.0 - f.x : x == n ? f.x : 1.0;
-            const ivec2 texel = clamp(first + ivec2(x, y), ivec2(0), last);
-            const float t = at.t + dot(at.slope, vec2(first + ivec2(x, y)) + 0.5 - at.uv * c.filtering.map.size);
-            row += weight * min(1.0, exponential(texelFetch(values_image, ivec3(texel, at.layer), 0).x, t));
+    for (int y = 0; y <= n; y += 2) {
+        const vec2 wy = vec2(y == 0 ? 1.0 - f.y : y == n ? f.y : 1.0, y + 1 > n ? 0.0 : y + 1 == n ? f.y : 1.0);
+        for (int x = 0; x <= n; x += 2) {
+            const vec2 wx = vec2(x == 0 ? 1.0 - f.x : x == n ? f.x : 1.0, x + 1 > n ? 0.0 : x + 1 == n ? f.x : 1.0);
+            // order of a gather: (0,1) (1,1) (1,0) (0,0)
+            const vec4 values = textureGather(values_image, vec3((first + vec2(x + 1, y + 1)) / c.filtering.map.size, float(at.layer)));
+            const vec2 d = from_receiver + vec2(x, y);
+            const vec4 t = at.t + at.slope.x * (d.x + vec4(0, 1, 1, 0)) + at.slope.y * (d.y + vec4(1, 1, 0, 0));
+            const vec4 shift = 0.5 * c.params.exponent * t;
+            const vec4 lit = min(c.params.space == 1 ? exp(min(values - shift, 0.0)) : values * exp(-shift), 1.0);
+            sum += dot(lit, vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x));
         }
-        sum += row * (y == 0 ? 1.0 - f.y : y == n ? f.y : 1.0);
     }
     return sum / float(n * n);
 }

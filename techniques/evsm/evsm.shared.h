@@ -8,7 +8,7 @@ TECHNIQUE_BEGIN(evsm)
 struct Params {
     FilterParams filtering;
     int components DEFAULT(1);
-    int format DEFAULT(0);
+    int format DEFAULT(1);
     float exponent DEFAULT(40.0f);
     float negative_exponent DEFAULT(20.0f);
     float min_deviation DEFAULT(0.001f);

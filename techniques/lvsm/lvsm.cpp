@@ -57,9 +57,9 @@ class Method final : public TechniqueWith<Params> {
         const gpu::BufferId bounds = place_layers(passes, light_map, params);
         const parts::FilteredMap map = parts::filter_map(passes, frame, light_map, params.filtering,
             {.shader = "techniques/lvsm/lvsm_values.frag",
-                .format = params.format == 0 ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R16G16_UNORM,
-                .groups = params.layers,
-                .outputs = LVSM_MAX_LAYERS,
+                .format = params.format == 0 ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_UNORM,
+                .groups = (params.layers + 1) / 2,
+                .outputs = LVSM_MAX_LAYERS / 2,
                 .more = {{bounds, gpu::Use::load}},
                 .constants = [&](const FilterValues& layer) {
                     return ValuesConstants{layer, params};

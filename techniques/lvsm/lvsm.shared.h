@@ -12,7 +12,7 @@ struct Params {
     FilterParams filtering;
     int layers DEFAULT(4);
     int split DEFAULT(1);
-    int format DEFAULT(0);
+    int format DEFAULT(1);
     float overlap DEFAULT(0.1f);
     float min_deviation DEFAULT(0.001f);
     float bleed_reduction DEFAULT(0.1f);

@@ -15,6 +15,7 @@ void main()
     int layer = 0;
     while (layer + 1 < c.params.layers && at.t >= bounds[layer + 1]) ++layer;
     const float deviation = 2.0 * c.params.min_deviation; // the centred range is two wide
-    const float p = layer_visibility(window_mean(at, layer).xy, at.t, bounds[layer], bounds[layer + 1], c.params.overlap, deviation);
+    const vec4 pair = window_mean(at, layer / 2);
+    const float p = layer_visibility(layer % 2 == 0 ? pair.xy : pair.zw, at.t, bounds[layer], bounds[layer + 1], c.params.overlap, deviation);
     visibility = reduce_bleeding(p, c.params.bleed_reduction);
 }

@@ -7,7 +7,7 @@ TECHNIQUE_BEGIN(msm)
 
 struct Params {
     FilterParams filtering;
-    int format DEFAULT(0);
+    int format DEFAULT(1);
     float moment_bias DEFAULT(10.0f);
     float bleed_reduction DEFAULT(0.1f);
 };

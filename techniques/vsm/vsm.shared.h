@@ -8,7 +8,7 @@ TECHNIQUE_BEGIN(vsm)
 struct Params {
     FilterParams filtering;
     float min_deviation DEFAULT(0.001f);
-    int slope_moment DEFAULT(1);
+    int slope_moment DEFAULT(0);
     float bleed_reduction DEFAULT(0.2f);
 };
 
