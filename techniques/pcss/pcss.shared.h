@@ -24,12 +24,12 @@ struct Params {
     int search_taps DEFAULT(32);
     int filter_taps DEFAULT(64);
     int rotation DEFAULT(2);
-    int refine DEFAULT(2);
-    int centred DEFAULT(0);
+    int refine DEFAULT(3);
+    int centred DEFAULT(1);
     int filtering DEFAULT(0);
     int shortcut DEFAULT(2);
     int receiver DEFAULT(1);
-    float bias_cone DEFAULT(2.0f);
+    float bias_cone DEFAULT(1.0f);
     float least DEFAULT(1.0f);
     int cap DEFAULT(128);
 };
