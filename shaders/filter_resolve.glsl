@@ -37,7 +37,7 @@ bool find_filter_point(out FilterPoint at)
     if (r.background) return false;
     visibility = 0.0;
     if (!faces_light(c.filtering.light, r.p_world, r.n_geometric) || !light_reaches(c.filtering.light, r.p_world)) return false;
-    at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, r.p_world);
+    at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, c.filtering.map.axes, r.p_world);
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const MapPoint m = project(layer, r.p_world);
     at.uv = m.uv;

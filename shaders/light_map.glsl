@@ -14,18 +14,18 @@ struct MapPoint {
     bool inside; // in front of the layer's eye and within its rim
 };
 
-// Cube faces in the order +x -x +y -y +z -z: the major axis of p - centre.
-int select_cube_layer(vec3 centre, vec3 p_world)
+// Cube faces in the order +x -x +y -y +z -z of the cube's axes: the major one of p - centre.
+int select_cube_layer(vec3 centre, mat3 axes, vec3 p_world)
 {
-    const vec3 d = p_world - centre, a = abs(d);
+    const vec3 d = (p_world - centre) * axes, a = abs(d);
     if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0 ? 0 : 1;
     if (a.y >= a.z) return d.y >= 0.0 ? 2 : 3;
     return d.z >= 0.0 ? 4 : 5;
 }
 
-int select_layer(uint layout_kind, vec3 centre, vec3 p_world)
+int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec3 p_world)
 {
-    return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, p_world) : 0;
+    return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : 0;
 }
 
 float stored_from_depth(LightMapLayer layer, float depth)

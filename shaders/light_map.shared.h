@@ -26,6 +26,7 @@ struct LightMap {
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube)
     float padding;
+    mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
 };
 

@@ -17,7 +17,7 @@ struct MapPoint {
 inline int select_layer(const shaders::LightMap& map, vec3 p_world)
 {
     if (map.layout_kind != LIGHT_MAP_CUBE) return 0;
-    const vec3 d = p_world - map.centre;
+    const vec3 d = (p_world - map.centre) * map.axes;
     int axis = 2;
     if (std::abs(d.y) >= std::abs(d[axis])) axis = 1;
     if (std::abs(d.x) >= std::abs(d[axis])) axis = 0;

@@ -21,7 +21,7 @@ void main()
     visibility = 0.0;
     if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
 
-    const int index = select_layer(c.map.layout_kind, c.map.centre, r.p_world);
+    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
     const MapPoint m = project(layer, r.p_world + r.n_geometric * (c.params.normal_offset * texel));

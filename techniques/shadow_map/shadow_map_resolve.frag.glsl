@@ -24,7 +24,7 @@ void main()
     visibility = 0.0;
     if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
 
-    const int index = select_layer(c.map.layout_kind, c.map.centre, r.p_world);
+    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a
     // texel covers more depth (Holbert 2011, "Saying Goodbye to Shadow Acne").

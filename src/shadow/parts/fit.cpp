@@ -111,17 +111,18 @@ void fit_directional(
     map.layers[0] = orthographic_layer(axes, receivers, casters, settings);
 }
 
-void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
+/// `axes`: the cube's, columns in world space.
+void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const mat3& axes, const LightMapSettings& settings)
 {
     // a face of 90 degrees plus a rim of guard texels: tan = 1 on (size - 2 guard) texels
     const float tangent = float(settings.size) / std::max(float(settings.size) - 2.0f * settings.guard_texels, 1.0f);
     float near, far;
     depth_range(bounds, position, near, far);
-    map.layout_kind = LIGHT_MAP_CUBE, map.layer_count = 6, map.centre = position;
+    map.layout_kind = LIGHT_MAP_CUBE, map.layer_count = 6, map.centre = position, map.axes = axes;
     for (int face = 0; face < 6; ++face) {
-        vec3 direction(0);
-        direction[face / 2] = face % 2 ? -1.0f : 1.0f;
-        map.layers[face] = perspective_layer(light_axes(position, direction, vec3(0, 1, 0)), tangent, near, far, settings.size);
+        const vec3 direction = axes[face / 2] * (face % 2 ? -1.0f : 1.0f);
+        const vec3 up = axes[face / 2 == 1 ? 0 : 1];
+        map.layers[face] = perspective_layer(light_axes(position, direction, up), tangent, near, far, settings.size);
     }
 }
 
@@ -142,13 +143,15 @@ shaders::LightMap fit_light_map(
         map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)),
             std::tan(spot->outer_angle) * rim_factor(settings), near, far, settings.size);
     } else if (spot) {
-        fit_cube(map, bounds, spot->position, settings);
+        fit_cube(map, bounds, spot->position, mat3(1), settings);
     } else if (const auto* point = std::get_if<scene::PointLight>(&light.shape)) {
-        fit_cube(map, bounds, point->position, settings);
+        fit_cube(map, bounds, point->position, mat3(1), settings);
     } else if (const auto* rect = std::get_if<scene::RectLight>(&light.shape)) {
-        fit_cube(map, bounds, rect->centre, settings);
+        const vec3 u = glm::normalize(rect->half_u), n = glm::normalize(glm::cross(rect->half_u, rect->half_v));
+        fit_cube(map, bounds, rect->centre, mat3(u, glm::cross(n, u), n), settings);
     } else {
-        fit_cube(map, bounds, std::get<scene::DiskLight>(light.shape).centre, settings);
+        const auto& disk = std::get<scene::DiskLight>(light.shape);
+        fit_cube(map, bounds, disk.centre, scene::basis_about(disk.normal), settings);
     }
     return map;
 }

@@ -28,7 +28,8 @@ struct LightMap {
 };
 
 /// Which layouts exist for a light: directional -> one orthographic layer; spot up to 120 degrees -> one perspective layer; wider
-/// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points.
+/// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that stands as they do:
+/// the face along +z is parallel to them, and its rows and columns to a rectangle's sides.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
 
 /// A filter of `kernel` texels held to what a map can give: a quarter of its side. Wider ones would average unrelated parts of the

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/soft_map.h"
+
+#include "shadow/light_constants.h"
+
+namespace gnomon::shadow::parts {
+
+void describe_soft(Fields& fields, shaders::SoftParams& p)
+{
+    fields.integer("map_size", p.map_size, {16, 4096}, "texels", "Width and height of each depth layer.");
+    fields.choice(
+        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    fields.real(
+        "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
+}
+
+SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::SoftParams& params)
+{
+    SoftMap out;
+    out.map = draw_light_map(
+        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.125f * float(params.map_size) + 1.0f});
+    out.constants
+        = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants, params};
+    return out;
+}
+
+void resolve_soft(gpu::PassList& passes, const Frame& frame, std::string_view shader, std::span<const gpu::SpecConstant> spec,
+    gpu::Constants constants, std::vector<gpu::Binding> more)
+{
+    gpu::FullscreenPass pass;
+    pass.name = "resolve";
+    pass.program = &passes.device().raster_program("shaders/fullscreen.vert", shader, spec);
+    pass.bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}};
+    pass.bindings.insert(pass.bindings.end(), more.begin(), more.end());
+    pass.constants = std::move(constants);
+    pass.colors = {{frame.output}};
+    passes.fullscreen(std::move(pass));
+}
+
+} // namespace gnomon::shadow::parts

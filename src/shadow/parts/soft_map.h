@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shaders/soft_map.shared.h"
+#include "shadow/parts/light_map.h"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+// What soft shadow methods that look at one light map share: its parameters, its drawing, and the pass that writes the result.
+namespace gnomon::shadow::parts {
+
+/// Describes the shared parameters.
+void describe_soft(Fields&, shaders::SoftParams&);
+
+struct SoftMap {
+    LightMap map;
+    shaders::SoftResolve constants; ///< for shaders/soft_map.glsl
+};
+
+/// Draws the light map from the light's centre, with a rim of an eighth of its side for windows that reach over the receivers.
+SoftMap draw_soft_map(gpu::PassList&, const Frame&, const shaders::SoftParams&);
+
+/// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow.
+void resolve_soft(gpu::PassList&, const Frame&, std::string_view shader, std::span<const gpu::SpecConstant>, gpu::Constants,
+    std::vector<gpu::Binding> more);
+
+} // namespace gnomon::shadow::parts
