@@ -22,7 +22,8 @@ void describe(Params& p, Fields& fields)
 {
     fields.integer("samples", p.samples, {1, 1024}, "points", "Points of the light whose hard shadows are averaged; 1 is its centre.");
     fields.choice("by", p.by, {"maps", "rays"}, "Hard shadows by a shadow map from each point, or by rays to the same points.");
-    fields.choice("pattern", p.pattern, {"jittered", "hammersley"}, "How the points lie: one at random in each cell of equal area, or evenly.");
+    fields.choice(
+        "pattern", p.pattern, {"jittered", "hammersley"}, "How the points lie: one at random in each cell of equal area, or evenly.");
     fields.integer("map_size", p.map_size, {16, 4096}, "texels", "maps: width and height of each depth layer.");
     fields.choice("fit", p.fit, {"scene", "view"}, "maps: what they cover, the whole scene or the part of it that the view sees.");
     fields.flag("bilinear", p.bilinear, "maps: each comparison blends a 2 x 2 block instead of taking the nearest texel.");
@@ -43,7 +44,8 @@ Planes reach(const scene::Light& light)
     const mat3 basis = scene::basis_about(spot->direction);
     const float s = std::sin(spot->outer_angle), c = std::cos(spot->outer_angle);
     Planes sides;
-    for (const vec3 across : {basis[0], -basis[0], basis[1], -basis[1]}) sides.push_back(through(s * spot->direction + c * across, spot->position));
+    for (const vec3 across : {basis[0], -basis[0], basis[1], -basis[1]})
+        sides.push_back(through(s * spot->direction + c * across, spot->position));
     return sides;
 }
 
@@ -111,8 +113,8 @@ Layers LightSampling::fit(const Frame& frame, const Params& params, const std::v
     return out;
 }
 
-/// The sum goes from one image to the other, since a pass cannot read what it writes. Blending into one image would add each batch's sum and
-/// round otherwise for every size of batch.
+/// The sum goes from one image to the other, since a pass cannot read what it writes. Blending into one image would add each batch's sum
+/// and round otherwise for every size of batch.
 void LightSampling::draw(gpu::PassList& passes, const Frame& frame, const Params& params, const std::vector<vec4>& points)
 {
     const Layers all = fit(frame, params, points);
@@ -158,7 +160,8 @@ void LightSampling::trace(gpu::PassList& passes, const Frame& frame, const std::
             scene.tlas(), {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
             {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load},
             {passes.import(points_), gpu::Use::load}},
-        .constants = RayConstants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()), uint32_t(points.size())},
+        .constants
+        = RayConstants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()), uint32_t(points.size())},
         .threads = {uint32_t(frame.view.size.width), uint32_t(frame.view.size.height), 1},
         .textures = &scene.textures()});
 }

@@ -68,8 +68,8 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
     const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
-    out.depth
-        = passes.transient({format, {settings.size, settings.size}, out.constants.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
+    out.depth = passes.transient(
+        {format, {settings.size, settings.size}, out.constants.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
     draw_light_layers(passes, frame, out.constants, settings, out.depth);
     return out;
 }
