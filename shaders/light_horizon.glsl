@@ -4,6 +4,9 @@
 #define GNOMON_LIGHT_HORIZON_GLSL
 #include "shaders/light.glsl"
 
+// Radius of the disk that a round light is taken for: metres, or of a sun the tangent of its angular radius, short of half the sky.
+float sun_or_radius(Light light) { return light.kind == LIGHT_DIRECTIONAL ? tan(min(light.radius, 1.55)) : light.radius; }
+
 // Part of a unit disk on the positive side of a line whose signed distance from its centre is q.
 float disk_above(float q)
 {
@@ -11,22 +14,19 @@ float disk_above(float q)
     return 0.5 + (q * sqrt(1.0 - q * q) + asin(q)) / 3.14159265358979;
 }
 
-// Part of the square [-1, 1]^2 where a + b u + c v > 0: second differences of the half squares of its positive part, over 4 b c.
+// Part of the square [-1, 1]^2 where a + b u + c v > 0: a trapezium's while the line crosses two opposite sides, else all but a corner,
+// which is a triangle.
 float square_above(float a, float b, float c)
 {
     b = abs(b), c = abs(c);
-    if (b < c) {
-        const float t = b;
-        b = c;
-        c = t;
-    }
-    if (b + c <= abs(a)) return a > 0.0 ? 1.0 : 0.0;
-    // the second side nearly level: one axis alone
-    if (c < 1e-4 * b) return clamp(0.5 + 0.5 * a / b, 0.0, 1.0);
-    const vec4 f = max(vec4(a + b + c, a + b - c, a - b + c, a - b - c), 0.0);
-    return clamp(dot(f * f, vec4(1.0, -1.0, -1.0, 1.0)) / (8.0 * b * c), 0.0, 1.0);
+    const float wide = max(b, c), narrow = min(b, c), beyond = wide + narrow - abs(a);
+    if (beyond <= 0.0) return a > 0.0 ? 1.0 : 0.0;
+    if (abs(a) <= wide - narrow) return 0.5 + 0.5 * a / wide;
+    const float corner = beyond * beyond / (8.0 * wide * narrow);
+    return a > 0.0 ? 1.0 - corner : corner;
 }
 
+// Fraction of the light's area (docs/conventions.md) on n's side of the plane through p.
 float light_above_horizon(Light light, vec3 p_world, vec3 n)
 {
     const vec4 to = to_light(light, p_world);
@@ -34,11 +34,12 @@ float light_above_horizon(Light light, vec3 p_world, vec3 n)
         const vec3 d = light.position - p_world;
         return square_above(dot(n, d), dot(n, light.half_u), dot(n, light.half_v));
     }
-    // distance of the centre from the plane, and how far a disk of the light's radius reaches along the plane's normal
+    // distance of the centre from the plane, and how far a disk of the light's radius reaches along the plane's normal; a sun's, on the
+    // plane at unit distance across its direction
     const vec3 axis = light.kind == LIGHT_DISK ? light.direction : to.xyz;
     const float across = sqrt(max(0.0, 1.0 - dot(n, axis) * dot(n, axis)));
     const float height = light.kind == LIGHT_DIRECTIONAL ? dot(n, to.xyz) : dot(n, to.xyz) * to.w;
-    const float reach = across * (light.kind == LIGHT_DIRECTIONAL ? tan(light.radius) : light.radius);
+    const float reach = across * sun_or_radius(light);
     if (reach <= abs(height)) return height > 0.0 ? 1.0 : 0.0;
     return disk_above(height / reach);
 }

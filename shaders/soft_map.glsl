@@ -3,12 +3,11 @@
 // technique's shared header first: its ResolveConstants holds a SoftResolve named `soft`.
 #ifndef GNOMON_SOFT_MAP_GLSL
 #define GNOMON_SOFT_MAP_GLSL
-#include "shaders/light.glsl"
 #include "shaders/light_horizon.glsl"
-#include "shaders/light_map.glsl"
 #include "shaders/receiver.glsl"
 #include "shaders/receiver_plane.glsl"
 #include "shaders/soft_map.shared.h"
+#include "shaders/soft_window.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D normal_image;
@@ -25,26 +24,6 @@ struct SoftPoint {
     float horizon; // fraction of the light above the receiver's plane
     Receiver receiver;
 };
-
-// Half the light's extent along a unit vector.
-float light_half_width(Light light, vec3 along)
-{
-    if (light.kind == LIGHT_DIRECTIONAL) return tan(light.radius);
-    if (light.kind == LIGHT_RECT) return abs(dot(light.half_u, along)) + abs(dot(light.half_v, along));
-    if (light.kind == LIGHT_DISK) return light.radius * sqrt(max(0.0, 1.0 - dot(light.direction, along) * dot(light.direction, along)));
-    return light.radius;
-}
-
-// Half the width, in texels, of what the pyramid over the light with its apex at the receiver's depth d cuts out at depth z: the search
-// window (z: the nearest depth in question) and the filter's (z: the blockers'). With l the light's half width, the pyramid is
-// l (d - z) / d wide there, which from the light's centre is a tangent of l (d - z) / (d z) (Fernando 2005, "Percentage-closer soft
-// shadows"); under a sun of angular radius a it is (d - z) tan(a).
-vec2 window_half_width(LightMapLayer layer, vec2 light, float d, float z)
-{
-    const float between = max(d - z, 0.0);
-    if (layer.perspective == 0) return light * (between / layer.texel_metres);
-    return light * (between / (max(z, layer.near) * max(d, layer.near) * layer.texel_metres));
-}
 
 // False where the map has no say: `visibility` is then written.
 bool find_soft_point(out SoftPoint p)
@@ -65,13 +44,7 @@ bool find_soft_point(out SoftPoint p)
     p.slope *= min(1.0, 50.0 * metres_per_texel(layer, m.depth) / max(length(p.slope), 1e-20));
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
     p.depth = m.depth - rounding - c.soft.params.bias * (abs(p.slope.x) + abs(p.slope.y));
-    // the map's axes in the world: rows of the projection, without the part of perspective that centres it
-    const vec3 axis = layer.depth_plane.xyz;
-    const float centring = layer.perspective != 0 ? 0.5 : 0.0;
-    for (int k = 0; k < 2; ++k) {
-        const vec3 row = vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]) - centring * axis;
-        p.light[k] = light_half_width(c.soft.light, normalize(row));
-    }
+    p.light = light_half_size(layer, c.soft.light, p_world);
     return true;
 }
 

@@ -21,8 +21,9 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<shaders::MapCase> cases;
-    for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5",
-             "point,position=20/9/7", "rect,position=0/6/0,target=0/0/0"})
+    for (const char* text :
+        {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5", "point,position=20/9/7",
+            "rect,position=0/6/0,target=0/0/0", "rect,position=1/2/0.5,target=3/0/1", "disk,position=-1/2.5/2,target=2/1/-1"})
         for (const auto format : {shadow::parts::DepthFormat::d32, shadow::parts::DepthFormat::d16}) {
             const auto fit = format == shadow::parts::DepthFormat::d32 ? shadow::parts::Fit::scene : shadow::parts::Fit::view;
             const shaders::LightMap map

@@ -35,6 +35,20 @@ struct MapResult {
     float metres; ///< metres_per_texel at the depth
 };
 
+struct SoftCase {
+    LightMapLayer layer;
+    Light light;
+    vec3 p_world;
+    vec3 n; ///< of the receiver's plane
+    float z; ///< depth of the window
+};
+
+struct SoftResult {
+    float horizon; ///< light_above_horizon
+    vec2 size; ///< light_half_size
+    vec2 window; ///< window_half_width between the receiver's depth and z
+};
+
 struct RandomResult {
     uvec3 hash;
     vec2 unit;

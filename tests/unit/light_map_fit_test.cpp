@@ -199,6 +199,31 @@ TEST(LightMapFit, CubeFacesCoverAllDirectionsWithTheirRim)
     }
 }
 
+TEST(LightMapFit, ACubeStandsAsItsPanelDoes)
+{
+    const Bounds bounds{{-2, 0, -2}, {2, 3, 2}};
+    const scene::View view = scene::make_view(scene::fit_camera(bounds), picture, bounds);
+    for (const char* text : {"rect,position=0/2/0,target=0/0/0,width=0.5,height=0.2",
+             "rect,position=1/2/-0.3,target=-1/0.5/0.7,width=2,height=1", "rect,position=0.5/1/0,target=2/1/0",
+             "disk,position=1/2/-0.3,target=-1/0.5/0.7,radius=0.4", "disk,position=0/2/0,target=0/0/0"}) {
+        const scene::Light light = scene::parse_light(text, {}, bounds);
+        const shaders::LightMap map = fit_light_map({}, bounds, view, light, {.size = 64});
+        const shaders::LightMapLayer& ahead = map.layers[4]; // +z
+        const auto* rect = std::get_if<scene::RectLight>(&light.shape);
+        const vec3 normal = rect ? glm::normalize(glm::cross(rect->half_u, rect->half_v)) : std::get<scene::DiskLight>(light.shape).normal;
+        EXPECT_LT(glm::length(vec3(ahead.depth_plane) - normal), 1e-6f) << text;
+        EXPECT_EQ(select_layer(map, map.centre + normal), 4) << text;
+        EXPECT_EQ(select_layer(map, map.centre - normal), 5) << text;
+        if (!rect) continue;
+        for (const vec3 side : {rect->half_u, rect->half_v}) {
+            const glm::dvec2 step
+                = project(ahead, map.centre + normal + 0.1f * glm::normalize(side)).uv - project(ahead, map.centre + normal).uv;
+            EXPECT_LT(std::min(std::abs(step.x), std::abs(step.y)), 1e-6) << text;
+            EXPECT_NEAR(glm::length(step) * 64.0 * double(ahead.texel_metres), 0.1, 1e-5) << text;
+        }
+    }
+}
+
 TEST(LightMapFit, ACornerOfTheSceneTowardsTheLightIsNotClipped)
 {
     const Bounds bounds{{-2, 0, -2}, {2, 3, 2}};
