@@ -57,8 +57,8 @@ vec2 compare_quarters(vec2 lo, vec2 hi)
 bool wants_division(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi, float area, bool divisible)
 {
     const vec2 m = part_moments(lo, hi);
-    const vec2 across = k.slope * (hi - lo);
-    // a plane that falls by s over a part has a variance of s^2 / 12
+    // a plane that falls by s over a part has a variance of s^2 / 12; texels at the rim count as wholes
+    const vec2 across = k.slope * (hi - lo + 1.0);
     const bool level = m.y - m.x * m.x < k.flat_variance + dot(across, across) / 12.0;
     if (m.x >= 0.0 && level) {
         e.lit += area;

@@ -37,12 +37,11 @@ scene::Scene half_plane()
 
 TEST_F(Vssm, HalfPlanesAreRampsWithinATexel)
 {
-    const scene::RectLight rect{.position = {0, 5, 0}, .half_u = {0.6f, 0, 0}, .half_v = {0, 0, 0.6f}};
-    const scene::Light light{"rect", vec3(1), 1, rect};
+    const char* text = "rect,position=0/5/0,target=0/0/0,width=1.2,height=1.2";
+    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
     for (const double subdivision : {0.0, 1.0, 2.0, 3.0})
         for (const double bound : {0.0, 1.0}) {
-            const auto got = profile(half_plane(), 0.4f, "rect,position=0/5/0,target=0/0/0,width=1.2,height=1.2",
-                {{"subdivision", subdivision}, {"bound", bound}, {"contact", 0}});
+            const auto got = profile(half_plane(), 0.4f, text, {{"subdivision", subdivision}, {"bound", bound}, {"contact", 0}});
             for (int i = 0; i < 128; ++i) {
                 const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
                 const double truth = scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1);
@@ -54,12 +53,11 @@ TEST_F(Vssm, HalfPlanesAreRampsWithinATexel)
 
 TEST_F(Vssm, KernelsForDisksOfTheirAreaAreNearerThanThoseAroundThem)
 {
-    const scene::DiskLight disk{.position = {0, 5, 0}, .direction = {0, -1, 0}, .radius = 0.8f};
-    const scene::Light light{"disk", vec3(1), 1, disk};
+    const char* text = "disk,position=0/5/0,target=0/0/0,radius=0.8";
+    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
     double off[2] = {};
     for (int kernel = 0; kernel < 2; ++kernel) {
-        const auto got
-            = profile(half_plane(), 0.4f, "disk,position=0/5/0,target=0/0/0,radius=0.8", {{"kernel", double(kernel)}, {"contact", 0}});
+        const auto got = profile(half_plane(), 0.4f, text, {{"kernel", double(kernel)}, {"contact", 0}});
         for (int i = 0; i < 128; ++i) {
             const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
             off[kernel]
