@@ -21,7 +21,9 @@ void describe(Params& p, Fields& fields)
 {
     parts::describe_soft(fields, p.soft);
     fields.choice("sums", p.sums, {"integer", "float"},
-        "Summed-area table of 32-bit integers, exact for windows of up to half the map, or of 32-bit floats.");
+        "Summed-area table of 32-bit integers, exact for windows of up to `widest`, or of 32-bit floats.");
+    fields.real("widest", p.widest, {0.02, 0.5}, "of the map",
+        "Side of the widest window; larger ones are cut down to it. Integers have 32 bits less those that count a window's texels.");
     fields.choice("subdivision", p.subdivision, {"none", "uniform", "adaptive", "mixed"},
         "How kernels are divided of which the moments alone say nothing: not at all (they count as lit); into a grid; by a quad-tree; or a "
         "grid for the blockers' depth and a tree for the shadow.");
@@ -66,7 +68,7 @@ class Method final : public TechniqueWith<Params> {
     {
         const bool integer = params.sums == SUMS_INTEGER;
         const float size = float(params.soft.map_size);
-        c.widest = integer ? std::max(0.5f * size, std::min(size, 64.0f)) : size;
+        c.widest = std::max(params.widest * size, std::min(size, 16.0f));
         const int bits = parts::integer_sum_bits(double(c.widest) * double(c.widest));
         c.sum_step = parts::integer_sum_step(bits);
 
