@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/vssm/vssm.shared.h"
+
+#include "shaders/soft_map.glsl"
+#include "shaders/summed_area_table.glsl"
+
+layout(set = 0, binding = 4) uniform sampler2DArray sums_image;
+
+vec2 stored_moments(int layer, vec2 lo, vec2 hi) { return window_mean(sums_image, layer, lo, hi).xy; }
+
+#include "techniques/vssm/vssm_resolve.glsl"
