@@ -35,6 +35,15 @@ void hide_rectangle(vec2 lo, vec2 hi)
         hidden_samples[k] |= bits_below(end, k) & ~bits_below(first, k) & light_samples[above + k] & ~light_samples[below + k];
 }
 
+// Whether no further rectangle can change anything.
+bool all_hidden()
+{
+    if (words == 0) return hidden_area >= 4.0;
+    uint all_bits = ~0u;
+    for (int k = 0; k < words; ++k) all_bits &= hidden_samples[k];
+    return all_bits == ~0u;
+}
+
 float visible_part()
 {
     if (words == 0) return max(0.0, 1.0 - 0.25 * hidden_area);

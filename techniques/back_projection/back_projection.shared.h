@@ -11,7 +11,7 @@ struct Params {
     int accumulate DEFAULT(2);
     int gaps DEFAULT(1);
     int search DEFAULT(2);
-    int budget DEFAULT(32);
+    int budget DEFAULT(64);
 };
 
 struct ResolveConstants {

@@ -72,7 +72,7 @@ vec4 texel_borders(Viewpoint v, ivec2 texel)
 
 void hide_patches(Viewpoint v, ivec2 first, ivec2 last)
 {
-    for (int y = first.y; y <= last.y; ++y) {
+    for (int y = first.y; y <= last.y && !all_hidden(); ++y) {
         float left = gaps != 0 ? blocker_width(v, ivec2(first.x - 1, y)) : 0.0;
         for (int x = first.x; x <= last.x; ++x) {
             const float width = blocker_width(v, ivec2(x, y));
@@ -105,23 +105,26 @@ void hide_quad(vec2 left, vec2 right, vec2 lo, vec2 hi)
     if (!blocks.w) right.y = left.y;
     const vec2 a = 0.5 * vec2(lo.x * (left.x + left.y), lo.y * (left.x + right.x));
     const vec2 b = 0.5 * vec2(hi.x * (right.x + right.y), hi.y * (left.y + right.y));
-    if (count == 4) {
-        hide(a, b);
-        return;
-    }
     // The triangle as two strips, a quarter as wide in the half with the missing corner and three quarters in the other: its area.
     const bool missing_left = !blocks.x || !blocks.y, missing_up = !blocks.x || !blocks.z;
-    const float middle = 0.5 * (a.y + b.y);
-    const vec2 cut = mix(vec2(a.x), vec2(b.x), missing_left ? vec2(0.75, 0.25) : vec2(0.25, 0.75));
-    const vec2 cuts = missing_up ? cut : cut.yx; // of the upper and the lower strip
-    hide(vec2(missing_left ? cuts.x : a.x, a.y), vec2(missing_left ? b.x : cuts.x, middle));
-    hide(vec2(missing_left ? cuts.y : a.x, middle), vec2(missing_left ? b.x : cuts.y, b.y));
+    for (int strip = 0; strip < (occluders == TRIANGLES ? 2 : 1); ++strip) {
+        vec2 lo_strip = a, hi_strip = b;
+        if (occluders == TRIANGLES) {
+            const float middle = 0.5 * (a.y + b.y);
+            if (strip == 0) hi_strip.y = middle;
+            else lo_strip.y = middle;
+            const float part = count == 4 ? 1.0 : missing_up == (strip == 0) ? 0.25 : 0.75;
+            if (missing_left) lo_strip.x = mix(b.x, a.x, part);
+            else hi_strip.x = mix(a.x, b.x, part);
+        }
+        hide(lo_strip, hi_strip);
+    }
 }
 
 void hide_quads(Viewpoint v, ivec2 first, ivec2 last)
 {
     const float texel = float(1 << v.level);
-    for (int y = first.y - 1; y <= last.y; ++y) {
+    for (int y = first.y - 1; y <= last.y && !all_hidden(); ++y) {
         vec2 left = vec2(0.0);
         for (int x = first.x - 1; x <= last.x + 1; ++x) {
             const vec2 right = vec2(blocker_width(v, ivec2(x, y)), blocker_width(v, ivec2(x, y + 1)));
@@ -194,5 +197,6 @@ void main()
     frame = light_frame(c.soft.light, p.axes, (v.at - 0.5 * c.soft.map.size) * layer.texel_metres);
     // areas of a disk: those of the square of its size
     if (words == 0 && c.soft.light.kind != LIGHT_RECT) frame.scale *= 1.12837917;
-    visibility = p.horizon * visible_light(v);
+    // All that blocks lies above the receiver's plane, and so does what it hides of the light: not a factor of the part up there.
+    visibility = max(0.0, p.horizon - (1.0 - visible_light(v)));
 }
