@@ -19,9 +19,9 @@ using namespace shadow;
 void describe(Params& p, Fields& fields)
 {
     parts::describe_soft(fields, p.soft);
-    fields.choice("occluders", p.occluders, {"patches", "quads", "triangles"},
-        "What stands for the casters: a patch for each texel, quads between texel centres, or quads with triangles where three of the four "
-        "block.");
+    fields.choice("occluders", p.occluders, {"patches", "quads", "triangles", "mixed"},
+        "What stands for the casters: a patch for each texel, quads between texel centres, quads with triangles where three of the four "
+        "block, or patches of the finest level and quads of coarser ones.");
     fields.choice("accumulate", p.accumulate, {"area", "bitmask8", "bitmask16"},
         "How hidden parts of the light add up: as areas, or as bits of 8 x 8 or 16 x 16 samples.");
     fields.choice("gaps", p.gaps, {"none", "neighbours"},

@@ -7,7 +7,7 @@ TECHNIQUE_BEGIN(back_projection)
 
 struct Params {
     SoftParams soft;
-    int occluders DEFAULT(0);
+    int occluders DEFAULT(3);
     int accumulate DEFAULT(2);
     int gaps DEFAULT(1);
     int search DEFAULT(2);

@@ -12,6 +12,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer LightSamples { uint light_s
 
 #define PATCHES 0
 #define TRIANGLES 2
+#define MIXED 3
 #define SEARCH_MAP 0
 #define SEARCH_UMBRA 2
 
@@ -170,7 +171,7 @@ float visible_light(Viewpoint v)
     // a coarse texel holds its nearest depth, wherever in it: the receiver's plane may be nearer there than at the middle
     v.margin += (abs(v.slope.x) + abs(v.slope.y)) * 0.5 * float((1 << v.level) - 1);
     const ivec2 first = min(w.first >> v.level, v.most), last = min(w.last >> v.level, v.most);
-    if (occluders == PATCHES) hide_patches(v, first, last);
+    if (occluders == PATCHES || (occluders == MIXED && v.level == 0)) hide_patches(v, first, last);
     else hide_quads(v, first, last);
     return visible_part();
 }
