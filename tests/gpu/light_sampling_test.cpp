@@ -34,7 +34,7 @@ protected:
     static constexpr const char* lights[] = {"sun,elevation=50,azimuth=20,angle=10", "spot,position=3/4/1,target=0/0/0,cone=70,radius=0.3",
         "point,position=1/2/1,radius=0.4", "point,position=0.5/0.5/0.2,radius=0.3", "rect,position=2/4/1,target=0/0/0,width=1,height=0.6",
         "disk,position=-1/0.9/1,target=0/0/0,radius=0.4"};
-    static constexpr scene::Camera oblique{.eye = {3, 3, 6}, .target = {0, 0, 0}};
+    inline static const scene::Camera oblique{.eye = {3, 3, 6}, .target = {0, 0, 0}};
 };
 
 TEST_F(LightSampling, BatchesDoNotChangeABit)
