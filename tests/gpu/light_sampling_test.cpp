@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "technique_fixture.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +36,7 @@ protected:
     static constexpr const char* lights[] = {"sun,elevation=50,azimuth=20,angle=10", "spot,position=3/4/1,target=0/0/0,cone=70,radius=0.3",
         "point,position=1/2/1,radius=0.4", "point,position=0.5/0.5/0.2,radius=0.3", "rect,position=2/4/1,target=0/0/0,width=1,height=0.6",
         "disk,position=-1/0.9/1,target=0/0/0,radius=0.4"};
-    static constexpr scene::Camera oblique{.eye = {3, 3, 6}, .target = {0, 0, 0}};
+    inline static const scene::Camera oblique{.eye = {3, 3, 6}, .target = {0, 0, 0}};
 };
 
 TEST_F(LightSampling, BatchesDoNotChangeABit)
@@ -118,6 +120,29 @@ TEST_F(LightSampling, OddLightsGiveFractions)
                 ASSERT_TRUE(std::isfinite(v) && v >= 0.0f && v <= 1.0f) << light;
     const scene::Camera away{.eye = {0, 5, 0}, .target = {0, 9, 1}}; // sees nothing
     for (const float v : draw(s, away, {8, 8}, lights[0], {{"samples", 4}})) ASSERT_EQ(v, 1.0f);
+}
+
+TEST_F(LightSampling, RaysAreRefusedInASentenceWhereTheDeviceHasNoQueries)
+{
+    const std::unique_ptr<gpu::Device> plain = gpu::Device::open({.without = {"VK_KHR_ray_query"}});
+    const scene::Scene s = half_shadowed();
+    const scene::View view = scene::make_view(oblique, {8, 8}, s.bounds());
+    const scene::Light light = scene::parse_light(lights[0], {}, s.bounds());
+    shadow::SceneGpu on_device(*plain, s);
+    gpu::Image out = plain->image({VK_FORMAT_R32_SFLOAT, {8, 8}, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "visibility"});
+    const std::unique_ptr<shadow::Technique> technique = technique_light_sampling.create(*plain);
+    shadow::ParamValues params(technique_light_sampling.params());
+    gpu::PassList passes(*plain);
+    const shadow::GBuffer g = shadow::draw_gbuffer(passes, on_device, view, {.material = false});
+    const shadow::Frame frame{s, view, light, on_device, g, passes.import(out), 0};
+    EXPECT_NO_THROW(technique->record(passes, frame, params.bytes()));
+    params.set("by", "rays");
+    try {
+        technique->record(passes, frame, params.bytes());
+        ADD_FAILURE() << "traced without ray queries";
+    } catch (const base::Error& e) {
+        EXPECT_NE(std::string(e.what()).find("set by=maps"), std::string::npos);
+    }
 }
 
 } // namespace
