@@ -19,7 +19,7 @@ struct FilterParams {
     int fit DEFAULT(1);
     int kernel DEFAULT(9);
     int prefilter DEFAULT(0); ///< PREFILTER_*
-    float bias DEFAULT(0.5f); ///< texels
+    float bias DEFAULT(0.06f); ///< widths of the window
 };
 
 /// For shaders/filter_values.glsl: one layer of depth to values.

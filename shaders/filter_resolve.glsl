@@ -54,7 +54,8 @@ bool find_filter_point(out FilterPoint at)
     at.slope *= min(1.0, 50.0 * texel / max(length(at.slope), 1e-20));
     // as reference_depth: what rounding may take
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
-    at.t = centred_from_depth(layer, m.depth - rounding) - c.filtering.params.bias * (abs(at.slope.x) + abs(at.slope.y));
+    // and what means of up to 127 x 127 depths may be off by rounding, or a floor would stand behind its own mean
+    at.t = centred_from_depth(layer, m.depth - rounding) - 1e-5 - c.filtering.params.bias * float(c.filtering.params.kernel) * (abs(at.slope.x) + abs(at.slope.y));
     return true;
 }
 

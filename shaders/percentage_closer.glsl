@@ -10,16 +10,32 @@
 #define RECONSTRUCT_BILINEAR 1
 #define RECONSTRUCT_BICUBIC 2
 
-// Whether the texels `first` + (0,1) (1,1) (1,0) (0,0), a gather's order, are lit. No less than 0 is compared with, so that where
-// nothing was drawn is lit.
-vec4 compare_four(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 first, vec2 texel, bool coned)
+// What the texels `first` + (0,1) (1,1) (1,0) (0,0), a gather's order, are compared with: no less than 0, so that where nothing was
+// drawn is lit.
+vec4 reference_four(ReceiverPlane r, vec2 first, bool coned)
 {
-    const vec4 stored = textureGather(map, vec3((first + 1.0) * texel, float(layer_index)));
     const vec2 d = first + 0.5 - r.at;
     const vec4 dx = d.x + vec4(0.0, 1.0, 1.0, 0.0), dy = d.y + vec4(1.0, 1.0, 0.0, 0.0);
     vec4 z = r.z + r.slope.x * dx + r.slope.y * dy;
     if (coned) z += r.cone * sqrt(dx * dx + dy * dy);
-    return step(stored, max(z, 0.0));
+    return max(z, 0.0);
+}
+
+// Whether these texels are lit.
+vec4 compare_four(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 first, vec2 texel, bool coned)
+{
+    const vec4 stored = textureGather(map, vec3((first + 1.0) * texel, float(layer_index)));
+    return step(stored, reference_four(r, first, coned));
+}
+
+// The nearest texel: its stored depth, and what that is compared with.
+vec2 nearest_tap(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 at, vec2 texel, bool coned)
+{
+    const vec2 centre = clamp(floor(at), vec2(0.0), 1.0 / texel - 1.0) + 0.5;
+    const vec2 offset = centre - r.at;
+    float z = r.z + dot(r.slope, offset);
+    if (coned) z += r.cone * length(offset);
+    return vec2(texelFetch(map, ivec3(centre, layer_index), 0).r, max(z, 0.0));
 }
 
 // One tap d texels from the receiver: a 2 x 2 block blended, or the nearest texel.
@@ -31,11 +47,8 @@ float compare_tap(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 d, 
         const vec4 lit = compare_four(map, layer_index, r, first, texel, coned);
         return mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);
     }
-    const vec2 centre = clamp(floor(at), vec2(0.0), 1.0 / texel - 1.0) + 0.5;
-    const vec2 offset = centre - r.at;
-    float z = r.z + dot(r.slope, offset);
-    if (coned) z += r.cone * length(offset);
-    return step(texelFetch(map, ivec3(centre, layer_index), 0).r, max(z, 0.0));
+    const vec2 tap = nearest_tap(map, layer_index, r, at, texel, coned);
+    return step(tap.x, tap.y);
 }
 
 // Tap i of n along one axis; `exponent` is that of separable_filter.

@@ -125,14 +125,15 @@ std::string number_axis(const PlotSpec& plot, const std::vector<Series>& series)
 std::string style(const Series& s, bool words)
 {
     const std::string color = fmt::format("lc '{}'", colors[s.color % std::size(colors)]);
+    const size_t dash = s.dash + s.color / std::size(colors); // colours that come again are dashed
     if (words)
         return fmt::format(
-            "using 1:2 with boxes fs solid {:.2f} border lc '#333333' {}", std::max(0.25, 0.9 - 0.25 * double(s.dash)), color);
+            "using 1:2 with boxes fs solid {:.2f} border lc '#333333' {}", std::max(0.25, 0.9 - 0.25 * double(dash)), color);
     constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
-    const std::string mark = fmt::format("pt {} ps 0.7 {}", marks[s.dash % std::size(marks)], color);
+    const std::string mark = fmt::format("pt {} ps 0.7 {}", marks[dash % std::size(marks)], color);
     if (!s.joined) return "using 1:2 with points " + mark;
     const bool bars = std::any_of(s.points.begin(), s.points.end(), [](const Point& p) { return p.deviation > 0; });
-    return fmt::format("{} lw 2 dt {} {}", bars ? "using 1:2:3 with yerrorlines" : "using 1:2 with linespoints", 1 + s.dash % 5, mark);
+    return fmt::format("{} lw 2 dt {} {}", bars ? "using 1:2:3 with yerrorlines" : "using 1:2 with linespoints", 1 + dash % 5, mark);
 }
 
 std::string script(const PlotSpec& plot, const std::vector<Series>& series, bool words)

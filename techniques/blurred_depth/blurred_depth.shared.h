@@ -6,7 +6,7 @@
 TECHNIQUE_BEGIN(blurred_depth)
 
 struct Params {
-    FilterParams filtering DEFAULT({.bias = 1.0f});
+    FilterParams filtering DEFAULT({.bias = 0.11f});
     int compare DEFAULT(0);
     float softness DEFAULT(0.5f);
 };

@@ -20,6 +20,8 @@ void describe(Params& p, Fields& fields)
     fields.real("attenuation", p.attenuation, {0, 8}, "", "Damping of the high terms against ringing: exp(-attenuation (k / terms)^2).");
     fields.real("offset", p.offset, {0, 0.2}, "depth range", "Receivers are compared so much nearer to the light.");
     fields.real("scale", p.scale, {1, 8}, "", "Factor on the result before it is cut off at 1: a surface on its own depth has 1/2.");
+    fields.real("bleed_reduction", p.bleed_reduction, {0, 0.9}, "",
+        "Fractions of light up to this one become dark, above all the series' ripples in umbrae; the rest is stretched.");
 }
 
 class Method final : public TechniqueWith<Params> {

@@ -12,6 +12,7 @@ struct Params {
     float attenuation DEFAULT(0.0f);
     float offset DEFAULT(0.0f);
     float scale DEFAULT(2.0f);
+    float bleed_reduction DEFAULT(0.12f);
 };
 
 struct ValuesConstants {

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/csm/csm.shared.h"
 
+#include "shaders/chebyshev.glsl"
 #include "shaders/filter_resolve.glsl"
 #include "techniques/csm/csm.glsl"
 
@@ -16,5 +17,5 @@ void main()
     float sum = 0.0;
     for (int i = 0; i < groups; ++i)
         sum += fourier_step(2.0 * window_mean(at, i) - 1.0, phase, i, 1.0 / float(2 * groups), c.params.attenuation);
-    visibility = clamp(c.params.scale * (0.5 + sum), 0.0, 1.0);
+    visibility = reduce_bleeding(min(c.params.scale * (0.5 + sum), 1.0), c.params.bleed_reduction);
 }

@@ -6,7 +6,7 @@
 TECHNIQUE_BEGIN(msm)
 
 struct Params {
-    FilterParams filtering;
+    FilterParams filtering DEFAULT({.bias = 0.12f});
     int format DEFAULT(1);
     float moment_bias DEFAULT(10.0f);
     float bleed_reduction DEFAULT(0.1f);

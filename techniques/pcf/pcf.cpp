@@ -27,8 +27,7 @@ void describe(Params& p, Fields& fields)
     fields.flag("bilinear", p.bilinear, "Each tap blends 2 x 2 comparisons instead of taking the nearest texel (all forms but bicubic).");
     fields.integer(
         "taps", p.taps, {4, PCF_MAX_TAPS}, "", "Taps of a disk; poisson has 8 to 64; rounded up to fill the groups of interleave.");
-    fields.choice("rotation", p.rotation, {"none", "blue_noise", "interleaved_gradient"},
-        "Turns a disk by noise, another angle each pixel and frame.");
+    fields.choice("rotation", p.rotation, parts::rotations(), "Turns a disk by noise, another angle each pixel and frame.");
     fields.choice(
         "interleave", p.interleave, {"1", "2", "4"}, "Splits a disk's taps over k x k pixels, and averages those of one surface.");
     fields.flag("adaptive", p.adaptive, "A few outer taps come first, and decide where they agree.");
@@ -77,7 +76,7 @@ private:
                 .slope_bias = params.bias == PCF_BIAS_SLOPE ? params.bias_slope * 2.0f * reach(params, c.kernel) : 0.0f,
                 .guard_texels = reach(params, c.largest) + 1.0f});
         c.map = map.constants;
-        const bool noise = is_disk(params) && params.rotation == PCF_ROTATE_BLUE_NOISE;
+        const bool noise = is_disk(params) && params.rotation == parts::rotate_blue_noise;
         if (noise && !noise_) noise_ = parts::blue_noise(device_);
 
         gpu::ImageId target = frame.output;

@@ -15,7 +15,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 layout(constant_id = 0) const int form = PCF_BOX;
 layout(constant_id = 1) const bool bilinear = true;
 layout(constant_id = 2) const int bias = PCF_BIAS_CONE;
-layout(constant_id = 3) const int rotation = PCF_ROTATE_NONE;
+layout(constant_id = 3) const int rotation = ROTATE_NONE;
 layout(constant_id = 4) const bool adaptive = false;
 layout(constant_id = 5) const bool footprint = false;
 // A small fixed kernel, or 0: known to the compiler, so that the filter's loops are unrolled.
@@ -48,21 +48,12 @@ ReceiverPlane make_plane(LightMapLayer layer, Receiver r, MapPoint m, float radi
     return flat_plane(layer, c.map.size, c.map.depth_step, m);
 }
 
-mat2 tap_rotation(ivec2 tile)
-{
-    if (rotation == PCF_ROTATE_NONE) return mat2(1.0);
-    const float turn
-        = rotation == PCF_ROTATE_BLUE_NOISE ? blue_noise(noise_image, tile, c.view.frame) : interleaved_gradient(tile, c.view.frame);
-    const float s = sin(6.28318531 * turn), k = cos(6.28318531 * turn);
-    return mat2(k, s, -s, k);
-}
-
 // Taps of the disk; with groups, those of this pixel's group alone: every group has taps of all radii.
 float disk_filter(int layer_index, ReceiverPlane plane, float radius)
 {
     const ivec2 pixel = ivec2(gl_FragCoord.xy), tile = pixel / c.groups, place = pixel - tile * c.groups;
     const int first = place.y * c.groups + place.x, stride = c.groups * c.groups;
-    const mat2 turned = radius * tap_rotation(tile);
+    const mat2 turned = radius * tap_rotation(rotation, noise_image, tile, c.view.frame);
     const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);
     const int count = c.taps / stride, probes = adaptive ? min(8, count) : count;
     float sum = 0.0;

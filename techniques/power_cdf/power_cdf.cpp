@@ -32,7 +32,7 @@ class Method final : public TechniqueWith<Params> {
                     return ValuesConstants{layer, params};
                 }});
         const gpu::ImageId range = parts::window_min_max(passes, map.values, map.constants.params.kernel);
-        map.constants.params.bias += params.plane_bias * 0.5f * float(map.constants.params.kernel);
+        map.constants.params.bias += 0.5f * params.plane_bias;
         parts::resolve_filtered(passes, frame, map, "techniques/power_cdf/power_cdf_resolve.frag", ResolveConstants{map.constants, params},
             {gpu::Binding(range, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both ways of tracing share: bindings, ray origins, the estimate. Each way defines
-//   bool occluded(vec3 origin, vec3 direction, float from, float to)
+// What both ways of tracing share: bindings and the estimate. Each way defines `occluded` of shaders/light_rays.glsl.
 #include "shaders/light.glsl"
 #include "shaders/random.glsl"
 #include "shaders/receiver.glsl"
@@ -19,43 +18,19 @@ layout(set = 1, binding = 0, scalar) uniform Constants { TraceConstants c; };
 layout(set = 2, binding = 0) uniform sampler2D textures[];
 
 #include "shaders/alpha.glsl"
-
-bool occluded(vec3 origin, vec3 direction, float from, float to);
-
-// The receiver's position comes from a depth image through an inverse matrix, so it lies off its triangle by a few units in the
-// last place of the eye's distance and of its own coordinates. Moving off the plane by more than that keeps the segment open
-// at the receiver's end: neither its own triangle nor its neighbours in the plane block it. (By the scene's extent instead, the
-// offset under a mountain range was 6 mm and let light in below a roof.)
-float rounding(Receiver r)
-{
-    const vec3 a = abs(r.p_world);
-    return 2.5e-6 * (max(a.x, max(a.y, a.z)) + distance(c.view.eye, r.p_world));
-}
-
-// The ray also begins as far along its way: where another surface touches the receiver's (a table's leg the floor), rounding can put
-// the point on the wrong side of that one.
-float sample_visible(Receiver r, float error, vec2 u)
-{
-    const vec3 origin = r.p_world + r.n_geometric * error;
-    const vec4 point = light_point(c.light, r.p_world, u);
-    const vec3 to_point = point.w == 0.0 ? point.xyz : point.xyz - r.p_world;
-    if (dot(r.n_geometric, to_point) <= 0.0) return 0.0;
-    if (point.w == 0.0) return occluded(origin, point.xyz, error, 1e30) ? 0.0 : 1.0;
-    const vec3 d = point.xyz - origin;
-    const float length_d = length(d);
-    return occluded(origin, d / length_d, error, length_d) ? 0.0 : 1.0;
-}
+#include "shaders/light_rays.glsl"
 
 float trace_visibility(Receiver r, uvec2 pixel)
 {
     if (!light_reaches(c.light, r.p_world)) return 0.0;
-    const float error = rounding(r);
+    const float error = position_rounding(c.view, r);
     const bool hard = c.light.radius == 0.0;
     const int strata = hard ? 1 : int(ceil(sqrt(float(c.params.samples)) - 1e-4));
     float sum = 0.0;
     for (int i = 0; i < strata * strata; ++i) {
         const vec2 jitter = random2(uvec3(pixel, uint(i) + c.view.frame * 65536u));
-        sum += sample_visible(r, error, (vec2(i % strata, i / strata) + jitter) / float(strata));
+        const vec4 point = light_point(c.light, r.p_world, (vec2(i % strata, i / strata) + jitter) / float(strata));
+        sum += sees_light_point(r, error, point) ? 1.0 : 0.0;
     }
     return sum / float(strata * strata);
 }

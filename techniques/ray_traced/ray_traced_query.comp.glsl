@@ -4,20 +4,9 @@
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_ray_query : require
 #include "techniques/ray_traced/ray_traced.glsl"
+#include "shaders/occluded_query.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-
-bool occluded(vec3 origin, vec3 direction, float from, float to)
-{
-    rayQueryEXT query;
-    rayQueryInitializeEXT(query, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xff, origin, from, direction, to);
-    while (rayQueryProceedEXT(query)) { // only masked triangles come here: the others are opaque to the hardware
-        const uint slot = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
-        const uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
-        if (mask_keeps(slot, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false))) rayQueryConfirmIntersectionEXT(query);
-    }
-    return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
-}
 
 void main()
 {

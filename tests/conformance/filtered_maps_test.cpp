@@ -169,9 +169,9 @@ TEST_P(FilteredMaps, TexelsAreNoPartOfThePicture)
     for (const char* light : lights) {
         Drawer draw({.scene = "contact", .lights = {light}, .size = {160, 120}});
         for (const Settings& prefilter : choices({"prefilter"})) {
-            const base::Picture coarse = draw(prefilter + Settings{{"map_size", 128}, {"kernel", 9}, {"bias", 0.5}});
-            const base::Picture fine = draw(prefilter + Settings{{"map_size", 256}, {"kernel", 18}, {"bias", 1.0}});
-            const base::Picture narrow = draw(prefilter + Settings{{"map_size", 256}, {"kernel", 9}, {"bias", 0.5}});
+            const base::Picture coarse = draw(prefilter + Settings{{"map_size", 128}, {"kernel", 9}});
+            const base::Picture fine = draw(prefilter + Settings{{"map_size", 256}, {"kernel", 18}});
+            const base::Picture narrow = draw(prefilter + Settings{{"map_size", 256}, {"kernel", 9}});
             const auto difference = [&](const base::Picture& a, const base::Picture& b) {
                 double sum = 0;
                 for (size_t i = 0; i < a.values.size(); ++i) sum += std::abs(double(a.values[i]) - double(b.values[i]));

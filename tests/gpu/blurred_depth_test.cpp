@@ -62,8 +62,8 @@ TEST_F(BlurredDepth, SmoothComparisonLeaksUnderNearOccluders)
         EXPECT_EQ(under(x, technique_blurred_depth, {}), 0.0);
     }
     EXPECT_EQ(under(2, technique_blurred_depth, soft), 0.0);
-    // 1 - smoothstep(0, 0.5, 0.1 less the bias of 0.01): nine tenths of the light comes through an opaque sheet
-    EXPECT_NEAR(under(-2, technique_blurred_depth, soft), 0.914, 0.01);
+    // 1 - smoothstep(0, 0.5, 0.1): nine tenths of the light comes through an opaque sheet
+    EXPECT_NEAR(under(-2, technique_blurred_depth, soft), 0.896, 0.01);
 }
 
 } // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/clip.h"
 
-#include "shadow/scene_gpu.h"
+#include "scene/light.h"
 
+#include <algorithm>
 #include <array>
 
 namespace gnomon::shadow::parts {
@@ -73,6 +74,25 @@ std::vector<vec3> visible_part(const scene::View& view, const Bounds& box)
     };
     add(faces(box_corners(box)), frustum_planes(view.clip_from_world));
     add(faces(frustum_corners(view, box)), box_planes(box));
+    return points;
+}
+
+std::vector<vec3> vertices_within(const Planes& planes, const Bounds& box)
+{
+    const float slack = 1e-4f * std::max(box.radius(), 1e-3f), reach = 2.0f * box.radius() + slack;
+    Planes sides = box_planes({box.min - slack, box.max + slack});
+    sides.insert(sides.end(), planes.begin(), planes.end());
+    std::vector<vec3> points;
+    for (size_t i = 0; i < sides.size(); ++i) { // the face in each plane: a square about the box, cut by the others
+        const vec3 n(sides[i]), foot = box.centre() - n * (glm::dot(n, box.centre()) + sides[i].w);
+        const mat3 basis = scene::basis_about(n);
+        Polygon p;
+        for (const vec2 corner : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1)})
+            p.push_back(foot + reach * (corner.x * basis[0] + corner.y * basis[1]));
+        for (size_t k = 0; k < sides.size(); ++k)
+            if (k != i) p = clip(p, sides[k]);
+        points.insert(points.end(), p.begin(), p.end());
+    }
     return points;
 }
 

@@ -3,6 +3,7 @@
 
 #include "scene/math.h"
 #include "scene/view.h"
+#include "shadow/scene_gpu.h"
 
 #include <vector>
 
@@ -11,5 +12,8 @@ namespace gnomon::shadow::parts {
 /// The vertices of (what the view sees) ∩ (the box), world space: faces of the box clipped by the frustum's planes and faces of
 /// the frustum, cut off beyond the box, clipped by the box. Empty where the view sees nothing of it.
 std::vector<vec3> visible_part(const scene::View&, const Bounds& box);
+
+/// The vertices of the part of the box, widened by a ten-thousandth, that is inside of all planes. Empty where there is none.
+std::vector<vec3> vertices_within(const Planes&, const Bounds& box);
 
 } // namespace gnomon::shadow::parts

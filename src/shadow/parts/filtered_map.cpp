@@ -65,8 +65,8 @@ void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages
     if (averages != Averages::fixed_windows) help += "; `mips`, boxes, and mips of them where a pixel covers more";
     if (averages == Averages::all) help += "; `sums`, a summed-area table, windows as wide as the kernel or the pixel";
     fields.choice("prefilter", p.prefilter, ways, (help + ".").c_str());
-    fields.real(
-        "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
+    fields.real("bias", p.bias, {0, 1}, "windows",
+        "A receiver is moved towards the light by the depth that its plane gains over so much of the window's width.");
 }
 
 LightMap draw_map_to_filter(gpu::PassList& passes, const Frame& frame, const shaders::FilterParams& params)

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "shadow/parts/fit.h"
+
 #include "shadow/parts/clip.h"
-#include "shadow/parts/light_map.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace gnomon::shadow::parts {
 
-namespace {
-
-// uv in [0,1] with v down, from clip coordinates with y up
-const mat4 uv_from_clip = glm::translate(mat4(1), vec3(0.5f, 0.5f, 0)) * glm::scale(mat4(1), vec3(0.5f, -0.5f, 1));
-
-/// World to a light's axes: x, y across, z along its direction (depth in metres).
 mat4 light_axes(vec3 origin, vec3 direction, vec3 up)
 {
     if (std::abs(glm::dot(direction, up)) > 0.999f) up = std::abs(direction.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1);
@@ -23,14 +18,19 @@ mat4 light_axes(vec3 origin, vec3 direction, vec3 up)
     return m;
 }
 
-vec4 row(const mat4& m, int r) { return vec4(m[0][r], m[1][r], m[2][r], m[3][r]); }
-
 std::vector<vec3> corners(const Bounds& b)
 {
     std::vector<vec3> out;
     for (int i = 0; i < 8; ++i) out.push_back(vec3(i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z));
     return out;
 }
+
+namespace {
+
+// uv in [0,1] with v down, from clip coordinates with y up
+const mat4 uv_from_clip = glm::translate(mat4(1), vec3(0.5f, 0.5f, 0)) * glm::scale(mat4(1), vec3(0.5f, -0.5f, 1));
+
+vec4 row(const mat4& m, int r) { return vec4(m[0][r], m[1][r], m[2][r], m[3][r]); }
 
 Bounds in_axes(const std::vector<vec3>& points, const mat4& axes)
 {
@@ -85,48 +85,108 @@ shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float 
     return layer;
 }
 
-/// Distances between which anything can cast or receive, for a light at `position`.
-void depth_range(const Bounds& bounds, vec3 position, float& near, float& far)
+/// Depths between which anything can cast or receive, for a light at `position` and layers that reach as far from their axis as `cosine`.
+void depth_range(const Bounds& bounds, vec3 position, float cosine, float& near, float& far)
 {
     far = 0;
     for (const vec3 c : corners(bounds)) far = std::max(far, glm::length(c - position));
     far = std::max(far, 1e-3f) * 1.01f;
     const vec3 nearest = glm::clamp(position, bounds.min, bounds.max);
-    // along an axis the depth can be as small as 1/sqrt(3) of the distance; inside the scene nothing bounds it: float depth reversed
-    // loses no precision to a small near plane
-    near = std::max(0.5f * glm::length(nearest - position), 2e-4f * far);
+    // inside the scene nothing bounds it: float depth reversed loses no precision to a small near plane
+    near = std::max(cosine * glm::length(nearest - position), 2e-4f * far);
 }
 
-void fit_directional(
-    shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
+/// Of a cube's corner, less something for the rim (1 / sqrt(3) without), and of spots of up to 60 degrees.
+constexpr float cube_cosine = 0.5f;
+
+/// A face of 90 degrees plus a rim of guard texels: tan = 1 on (size - 2 guard) texels.
+float face_tangent(const LightMapSettings& settings)
 {
-    const mat4 axes = light_axes(bounds.centre(), direction, vec3(0, 1, 0));
-    const Bounds casters = in_axes(corners(bounds), axes);
-    Bounds receivers = casters;
-    if (settings.fit == Fit::view) {
-        const std::vector<vec3> seen = visible_part(view, bounds);
-        if (!seen.empty()) receivers = in_axes(seen, axes);
-    }
-    map.layer_count = 1;
-    map.layers[0] = orthographic_layer(axes, receivers, casters, settings);
+    return float(settings.size) / std::max(float(settings.size) - 2.0f * settings.guard_texels, 1.0f);
+}
+
+mat4 face_axes(vec3 position, const mat3& axes, int face)
+{
+    return light_axes(position, axes[face / 2] * (face % 2 ? -1.0f : 1.0f), axes[face / 2 == 1 ? 0 : 1]);
 }
 
 /// `axes`: the cube's, columns in world space.
 void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const mat3& axes, const LightMapSettings& settings)
 {
-    // a face of 90 degrees plus a rim of guard texels: tan = 1 on (size - 2 guard) texels
-    const float tangent = float(settings.size) / std::max(float(settings.size) - 2.0f * settings.guard_texels, 1.0f);
     float near, far;
-    depth_range(bounds, position, near, far);
+    depth_range(bounds, position, cube_cosine, near, far);
     map.layout_kind = LIGHT_MAP_CUBE, map.layer_count = 6, map.centre = position, map.axes = axes;
-    for (int face = 0; face < 6; ++face) {
-        const vec3 direction = axes[face / 2] * (face % 2 ? -1.0f : 1.0f);
-        const vec3 up = axes[face / 2 == 1 ? 0 : 1];
-        map.layers[face] = perspective_layer(light_axes(position, direction, up), tangent, near, far, settings.size);
+    for (int face = 0; face < 6; ++face)
+        map.layers[face] = perspective_layer(face_axes(position, axes, face), face_tangent(settings), near, far, settings.size);
+}
+
+/// Whether all points lie behind a layer's eye or outside of one of the sides of its pyramid of 90 degrees.
+bool misses_face(const std::vector<vec3>& points, const mat4& axes)
+{
+    bool behind = true, left = true, right = true, below = true, above = true;
+    for (const vec3 p : points) {
+        const vec3 q(axes * vec4(p, 1));
+        behind = behind && q.z < 0.0f;
+        left = left && q.x < -q.z, right = right && q.x > q.z;
+        below = below && q.y < -q.z, above = above && q.y > q.z;
     }
+    return behind || left || right || below || above;
+}
+
+/// The axes of a single perspective layer around `receivers`, and the tangent of its half angle: 0 where one lies beside or behind.
+mat4 centred_axes(vec3 position, const std::vector<vec3>& receivers, float& tangent)
+{
+    Bounds hull;
+    for (const vec3 p : receivers) hull.add(p);
+    vec3 direction = hull.centre() - position;
+    mat4 axes(1);
+    for (int turn = 0; turn < 4; ++turn) { // each centres the axis better
+        tangent = 0.0f;
+        if (glm::length(direction) < 1e-6f * hull.radius()) return axes;
+        axes = light_axes(position, glm::normalize(direction), vec3(0, 1, 0));
+        vec2 least(1e30f), most(-1e30f);
+        for (const vec3 p : receivers) {
+            const vec3 q(axes * vec4(p, 1));
+            if (q.z <= 0.05f * glm::length(q)) return axes;
+            least = glm::min(least, vec2(q) / q.z), most = glm::max(most, vec2(q) / q.z);
+        }
+        tangent = std::max({-least.x, -least.y, most.x, most.y});
+        direction = glm::transpose(mat3(axes)) * vec3(0.5f * (least + most), 1.0f);
+    }
+    return axes;
 }
 
 } // namespace
+
+shaders::LightMapLayer fit_parallel_layer(
+    vec3 direction, const std::vector<vec3>& receivers, const std::vector<vec3>& casters, const LightMapSettings& settings)
+{
+    Bounds box;
+    for (const vec3 p : casters) box.add(p);
+    const mat4 axes = light_axes(box.centre(), direction, vec3(0, 1, 0));
+    return orthographic_layer(axes, in_axes(receivers, axes), in_axes(casters, axes), settings);
+}
+
+PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings& settings)
+{
+    constexpr float widest = 2.0f;
+    PointFit fit;
+    float near, far, tangent;
+    const mat4 axes = centred_axes(position, receivers, tangent);
+    if (tangent > 0.0f && tangent <= widest) {
+        tangent = std::max(tangent, 1e-4f) * rim_factor(settings);
+        depth_range(casters, position, 0.99f / std::sqrt(1.0f + 2.0f * tangent * tangent), near, far);
+        return {{perspective_layer(axes, tangent, near, far, settings.size)}, {-1}};
+    }
+    depth_range(casters, position, cube_cosine, near, far);
+    for (int face = 0; face < 6; ++face) {
+        const mat4 at_face = face_axes(position, mat3(1), face);
+        if (misses_face(receivers, at_face)) continue;
+        fit.layers.push_back(perspective_layer(at_face, face_tangent(settings), near, far, settings.size));
+        fit.faces.push_back(face);
+    }
+    return fit;
+}
 
 shaders::LightMap fit_light_map(
     const scene::Scene&, const Bounds& bounds, const scene::View& view, const scene::Light& light, const LightMapSettings& settings)
@@ -135,10 +195,13 @@ shaders::LightMap fit_light_map(
     map.size = float(settings.size);
     map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
-        fit_directional(map, bounds, view, sun->direction, settings);
+        const std::vector<vec3> casters = corners(bounds);
+        const std::vector<vec3> seen = settings.fit == Fit::view ? visible_part(view, bounds) : casters;
+        map.layer_count = 1;
+        map.layers[0] = fit_parallel_layer(sun->direction, seen.empty() ? casters : seen, casters, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {
         float near, far;
-        depth_range(bounds, spot->position, near, far);
+        depth_range(bounds, spot->position, cube_cosine, near, far);
         map.layer_count = 1, map.centre = spot->position;
         map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)),
             std::tan(spot->outer_angle) * rim_factor(settings), near, far, settings.size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shadow/parts/light_map.h"
+#include "shadow/parts/fit.h"
 
 #include "src/shadow/parts/light_depth.shared.h"
 
@@ -27,15 +27,10 @@ Planes caster_planes(const mat4& clip_from_world, bool perspective)
 
 } // namespace
 
-LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+void draw_light_layers(
+    gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings, gpu::ImageId depth)
 {
     SceneGpu& scene = frame.resources;
-    LightMap out;
-    out.constants = fit_light_map(frame.scene, scene.bounds(), frame.view, frame.light, settings);
-    const shaders::LightMap& map = out.constants;
-    const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
-    out.depth = passes.transient({format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
-
     gpu::Device& device = scene.device();
     const gpu::Program& opaque = device.raster_program("src/shadow/parts/light_depth.vert", "");
     const gpu::Program& masked
@@ -47,7 +42,7 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
     pass.constants = depth_constants(map);
     pass.textures = &scene.textures();
-    pass.depth = gpu::DepthTarget{out.depth};
+    pass.depth = gpu::DepthTarget{depth};
     pass.layers = map.layer_count;
     pass.cull = settings.cull;
     pass.depth_clamp = map.layers[0].perspective == 0;
@@ -66,6 +61,16 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
         }
     };
     passes.raster(std::move(pass));
+}
+
+LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+{
+    LightMap out;
+    out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
+    const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
+    out.depth = passes.transient(
+        {format, {settings.size, settings.size}, out.constants.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
+    draw_light_layers(passes, frame, out.constants, settings, out.depth);
     return out;
 }
 

@@ -107,6 +107,17 @@ std::vector<vec2> vogel_disk(int count)
     return points;
 }
 
+vec2 disk_to_square(vec2 p)
+{
+    const bool wide = std::abs(p.x) > std::abs(p.y);
+    const float r = std::copysign(glm::length(p), wide ? p.x : p.y);
+    if (r == 0.0f) return vec2(0);
+    const float along = 4.0f / pi * std::atan(wide ? p.y / p.x : p.x / p.y) * r;
+    return wide ? vec2(r, along) : vec2(along, r);
+}
+
+std::vector<std::string> rotations() { return {"none", "blue_noise", "interleaved_gradient"}; }
+
 std::vector<uint32_t> void_and_cluster(int size)
 {
     const int count = size * size, ones = count / 10;

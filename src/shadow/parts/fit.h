@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shadow/parts/light_map.h"
+
+#include <vector>
+
+// What light maps are fitted from, for techniques that place layers of their own.
+namespace gnomon::shadow::parts {
+
+/// World to a light's axes: x, y across, z along its direction (depth in metres).
+mat4 light_axes(vec3 origin, vec3 direction, vec3 up);
+
+std::vector<vec3> corners(const Bounds&);
+
+/// A parallel light's layer: orthographic, around `receivers`, from the first of `casters` (points that hold all of them) to the last
+/// receiver.
+shaders::LightMapLayer fit_parallel_layer(
+    vec3 direction, const std::vector<vec3>& receivers, const std::vector<vec3>& casters, const LightMapSettings&);
+
+/// What one perspective layer, or the faces of a cube, see from a point of a light.
+struct PointFit {
+    std::vector<shaders::LightMapLayer> layers;
+    std::vector<int>
+        faces; ///< of each layer: its place in a cube of the world's axes (shaders/light_map.glsl), -1 where one layer holds all
+};
+
+/// The fewest layers from `position` in which the convex hull of `receivers` lies: one where no receiver is further than 63 degrees from
+/// its axis, else those faces of a cube that the hull may touch.
+PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings&);
+
+/// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
+/// `depth`'s.
+void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
+
+} // namespace gnomon::shadow::parts

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Soft shadow mapping by back projection (Guennebaud et al. 2006) with bitmasks and microquads (Schwarz and Stamminger 2007).
+#include "techniques/back_projection/back_projection.shared.h"
+
+#include "gpu/device.h"
+#include "shadow/parts/light_samples.h"
+#include "shadow/parts/pyramid.h"
+#include "shadow/parts/soft_map.h"
+#include "shadow/technique.h"
+
+#include <map>
+
+namespace gnomon::techniques::back_projection {
+
+namespace {
+
+using namespace shadow;
+
+void describe(Params& p, Fields& fields)
+{
+    parts::describe_soft(fields, p.soft);
+    fields.choice("occluders", p.occluders, {"patches", "quads", "triangles", "mixed"},
+        "What stands for the casters: a patch for each texel, quads between texel centres, quads with triangles where three of the four "
+        "block, or patches of the finest level and quads of coarser ones.");
+    fields.choice("accumulate", p.accumulate, {"area", "bitmask8", "bitmask16"},
+        "How hidden parts of the light add up: as areas, or as bits of 8 x 8 or 16 x 16 samples.");
+    fields.choice("gaps", p.gaps, {"none", "neighbours"},
+        "Whether a patch reaches to its blocking neighbours left of it and below, where their depths leave a gap; quads have none.");
+    fields.choice("search", p.search, {"map", "window", "umbra"},
+        "Texels looked at: all of the map (the definition), those that can hide the light, or those and none where all of them block.");
+    fields.integer("budget", p.budget, {4, 64}, "texels",
+        "Wider windows are read at the finest level of the pyramid that holds them in so many texels a side.");
+}
+
+class BackProjection final : public TechniqueWith<Params> {
+    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    {
+        const parts::SoftMap map = parts::draw_soft_map(passes, frame, params.soft);
+        const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, map.map.depth);
+        constexpr uint32_t words[] = {0, 2, 8};
+        const gpu::SpecConstant spec[] = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)}};
+        const bool disk = frame.light.kind() != scene::LightKind::rect;
+        parts::resolve_soft(passes, frame, "techniques/back_projection/back_projection_resolve.frag", spec,
+            ResolveConstants{map.constants, params},
+            {gpu::Binding(pyramid, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+                {passes.import(samples(passes.device(), params.accumulate == 2 ? 256 : 64, disk)), gpu::Use::load}});
+    }
+
+    gpu::Buffer& samples(gpu::Device& device, int count, bool disk)
+    {
+        const auto [found, fresh] = samples_.try_emplace({count, disk});
+        if (fresh) {
+            const auto table = parts::light_samples(count, disk).table;
+            found->second = device.buffer({table.size() * sizeof(uint32_t), 0, gpu::Memory::device, "light samples"});
+            device.upload(found->second, std::as_bytes(std::span(table)));
+        }
+        return found->second;
+    }
+
+    std::map<std::pair<int, bool>, gpu::Buffer> samples_;
+};
+
+} // namespace
+
+} // namespace gnomon::techniques::back_projection
+
+extern const gnomon::shadow::TechniqueInfo technique_back_projection;
+const gnomon::shadow::TechniqueInfo technique_back_projection = {
+    .id = "back_projection",
+    .title = "Back projection",
+    .family = "soft shadow maps",
+    .cite = "Guennebaud, Barthe, Paulin 2006; Schwarz, Stamminger 2007",
+    .output = gnomon::shadow::Output::visibility,
+    .lights = gnomon::shadow::all_lights,
+    .soft = true,
+    .params = [] { return gnomon::shadow::param_table(gnomon::techniques::back_projection::describe); },
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::back_projection::BackProjection>();
+    },
+};
