@@ -97,7 +97,7 @@ extern const gnomon::shadow::TechniqueInfo technique_vssm;
 const gnomon::shadow::TechniqueInfo technique_vssm = {
     .id = "vssm",
     .title = "Variance soft shadow mapping",
-    .family = "soft shadows from one map",
+    .family = "soft shadows",
     .cite = "Dong, Yang 2010",
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::all_lights,

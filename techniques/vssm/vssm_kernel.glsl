@@ -144,7 +144,7 @@ float bounded_dark(Evidence e, KernelSettings k)
 }
 
 // Blocked area and the mean x of the blockers. With all that is not blocked taken to lie at the receiver's depth, the mean over a
-// window is (1 - P) times the mean over its blockers (Dong and Yang 2010, equation 7), P being the lit fraction: with
+// window is (1 - P) times the mean over its blockers (Dong 2011, equation 7.4), P being the lit fraction: with
 // x, z_occ = (mu - P t) / (1 - P) is mu / (1 - P).
 vec2 mean_blocker(Evidence e, KernelSettings k)
 {

