@@ -14,7 +14,7 @@ using gpu::camera_above;
 using gpu::floor_scene;
 
 constexpr double area = 0, bitmask8 = 1, bitmask16 = 2;
-constexpr double patches = 0, quads = 1, triangles = 2;
+constexpr double patches = 0, quads = 1, triangles = 2, mixed = 3;
 constexpr double whole_map = 0, window = 1, umbra = 2;
 
 /// A horizontal sheet.
@@ -71,6 +71,24 @@ TEST_F(BackProjection, HalfPlanesGiveTheAreaBesideTheEdge)
             }
         }
     }
+}
+
+TEST_F(BackProjection, CoarsePatchesWidenCastersAndCoarseQuadsHardlyDo)
+{
+    // 60 texels wide, in at most 16: two levels up. Nearest depths move edges outwards by 1.5 fine texels on average, quads inwards by 2.
+    const double texel = 2.0 / 766 * 4 * 2.5 / 1.5;
+    double patch_error = 0, quad_error = 0;
+    constexpr int count = 16;
+    for (int i = 0; i < count; ++i) {
+        const float edge = -0.2f + 0.4f * float(i) / count;
+        scene::Scene s = floor_scene(4);
+        add_blocker(s, 1.5f, {-3, -3}, {edge, 3});
+        const double want = 0.5 - double(edge);
+        patch_error += (at_origin(s, square_light, {{"occluders", patches}, {"budget", 16}}) - want) / count;
+        quad_error += (at_origin(s, square_light, {{"occluders", mixed}, {"budget", 16}}) - want) / count;
+    }
+    EXPECT_NEAR(patch_error, -1.5 * texel, 0.7 * texel);
+    EXPECT_NEAR(quad_error, 0.5 * texel, 0.7 * texel);
 }
 
 TEST_F(BackProjection, RectanglesHideTheirShare)
