@@ -22,7 +22,6 @@ struct SoftPoint {
     float depth; // metres along the layer's axis, moved towards the light by the bias
     vec2 slope; // metres of depth that the receiver's plane gains from texel to texel
     vec2 light; // half the light's width along the map's axes: metres, or for orthographic layers the tangent of half the angle
-    mat3 axes; // of the layer in the world: along u, along v, along its depth
     float horizon; // fraction of the light above the receiver's plane
     Receiver receiver;
 };
@@ -71,10 +70,8 @@ bool find_soft_point(out SoftPoint p)
     const float centring = layer.perspective != 0 ? 0.5 : 0.0;
     for (int k = 0; k < 2; ++k) {
         const vec3 row = vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]) - centring * axis;
-        p.axes[k] = normalize(row);
-        p.light[k] = light_half_width(c.soft.light, p.axes[k]);
+        p.light[k] = light_half_width(c.soft.light, normalize(row));
     }
-    p.axes[2] = axis;
     return true;
 }
 
