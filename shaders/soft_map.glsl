@@ -21,7 +21,6 @@ struct SoftPoint {
     float depth; // metres along the layer's axis, moved towards the light by the bias
     vec2 slope; // metres of depth that the receiver's plane gains from texel to texel
     vec2 light; // half the light's width along the map's axes: metres, or for orthographic layers the tangent of half the angle
-    mat3 axes; // of the layer in the world: along u, along v, along its depth
     float horizon; // fraction of the light above the receiver's plane
     Receiver receiver;
 };
@@ -46,12 +45,6 @@ bool find_soft_point(out SoftPoint p)
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
     p.depth = m.depth - rounding - c.soft.params.bias * (abs(p.slope.x) + abs(p.slope.y));
     p.light = light_half_size(layer, c.soft.light, p_world);
-    // rows of the projection, without the part of perspective that centres it
-    const vec3 axis = layer.depth_plane.xyz;
-    const float centring = layer.perspective != 0 ? 0.5 : 0.0;
-    for (int k = 0; k < 2; ++k)
-        p.axes[k] = normalize(vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]) - centring * axis);
-    p.axes[2] = axis;
     return true;
 }
 

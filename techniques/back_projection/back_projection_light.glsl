@@ -3,6 +3,7 @@
 #ifndef GNOMON_BACK_PROJECTION_LIGHT_GLSL
 #define GNOMON_BACK_PROJECTION_LIGHT_GLSL
 #include "shaders/frame.shared.h"
+#include "shaders/light_map.shared.h"
 
 // From a point l of that plane to the light's own coordinates, in which it is the square [-1, 1]^2 or its inscribed disk:
 // x = scale.x l.x, y = scale.y l.y - shear x, after an exchange of l's axes where `turned`.
@@ -38,6 +39,15 @@ LightFrame parallelogram_frame(vec2 u, vec2 v)
     f.scale = 1.0 / width;
     f.shear = u.y / width.y;
     return f;
+}
+
+// The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that centres it.
+mat3 layer_axes(LightMapLayer layer)
+{
+    const vec3 depth = layer.depth_plane.xyz;
+    const mat3 rows = transpose(mat3(layer.map_from_world));
+    const float centring = layer.perspective != 0 ? 0.5 : 0.0;
+    return mat3(normalize(rows[0] - centring * depth), normalize(rows[1] - centring * depth), depth);
 }
 
 // Axes: the map's, depth last; t: tangents of the receiver's direction. Where light and map are not parallel, the light is projected onto
