@@ -127,8 +127,7 @@ std::string style(const Series& s, bool words)
     const std::string color = fmt::format("lc '{}'", colors[s.color % std::size(colors)]);
     const size_t dash = s.dash + s.color / std::size(colors); // colours that come again are dashed
     if (words)
-        return fmt::format(
-            "using 1:2 with boxes fs solid {:.2f} border lc '#333333' {}", std::max(0.25, 0.9 - 0.25 * double(dash)), color);
+        return fmt::format("using 1:2 with boxes fs solid {:.2f} border lc '#333333' {}", std::max(0.25, 0.9 - 0.25 * double(dash)), color);
     constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
     const std::string mark = fmt::format("pt {} ps 0.7 {}", marks[dash % std::size(marks)], color);
     if (!s.joined) return "using 1:2 with points " + mark;

@@ -68,7 +68,7 @@ extern const gnomon::shadow::TechniqueInfo technique_back_projection;
 const gnomon::shadow::TechniqueInfo technique_back_projection = {
     .id = "back_projection",
     .title = "Back projection",
-    .family = "soft shadow maps",
+    .family = "soft shadows",
     .cite = "Guennebaud, Barthe, Paulin 2006; Schwarz, Stamminger 2007",
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::all_lights,
