@@ -192,7 +192,8 @@ TEST_F(Pcss, BlockersAtSeveralDepthsGiveTheKnownWrongAnswers)
         const std::vector<float> v = draw(info, s, camera_above(vec3(0), 0.3f, 0.002f), light, values);
         return v[side / 2 * side + side / 2];
     };
-    const Values exhaustive = {{"pattern", grid}, {"refine", 0}, {"centred", 0}, {"map_size", 4096}, {"cap", 1024}, {"receiver", receiver_plane}};
+    const Values exhaustive
+        = {{"pattern", grid}, {"refine", 0}, {"centred", 0}, {"map_size", 4096}, {"cap", 1024}, {"receiver", receiver_plane}};
     EXPECT_NEAR(at_origin(0.02f, 0.06f, technique_pcss, exhaustive), 0.75f, 0.02f) << "in truth lit";
     EXPECT_NEAR(at_origin(-0.02f, 0.02f, technique_pcss, exhaustive), 0.5f, 0.03f) << "in truth dark";
     EXPECT_EQ(at_origin(0.02f, 0.06f, technique_ray_traced, {}), 1.0f);
