@@ -29,12 +29,19 @@ vec4 centre_weight(vec4 t_squared) { return centred ? exp2(-6.0 * t_squared) : v
 
 vec2 placed_tap(vec2 tap, mat2 turn, vec2 shift) { return box ? shifted_tap(tap, shift) : turn * tap; }
 
+// Small windows hold fewer gathers than a pattern has taps: all their texels are read.
+bool exhaustive(vec2 half_size, int taps)
+{
+    const vec2 gathers = half_size + (box ? 1.0 : 2.0);
+    return pattern == PCSS_GRID || gathers.x * gathers.y <= float(taps);
+}
+
 // x: sum of the blockers' depths in metres, y: sum of their weights.
 vec2 search_window(LightMapLayer layer, int index, ReceiverPlane plane, vec2 half_size)
 {
     const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);
     vec2 sum = vec2(0.0);
-    if (pattern == PCSS_GRID) {
+    if (exhaustive(half_size, c.params.search_taps)) {
         const vec2 first = floor(plane.at - half_size - (box ? 0.0 : 1.0)), last = plane.at + half_size + (box ? 0.0 : 1.0);
         for (float y = first.y; y < last.y; y += 2.0)
             for (float x = first.x; x < last.x; x += 2.0) {
@@ -62,7 +69,7 @@ vec2 search_window(LightMapLayer layer, int index, ReceiverPlane plane, vec2 hal
 float filter_window(int index, ReceiverPlane plane, vec2 half_size)
 {
     const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);
-    if (pattern == PCSS_GRID) {
+    if (exhaustive(half_size, c.params.filter_taps)) {
         const vec2 first = floor(plane.at - half_size - (box ? 0.0 : 1.0)), last = plane.at + half_size + (box ? 0.0 : 1.0);
         float lit = 0.0, weight = 0.0;
         for (float y = first.y; y < last.y; y += 2.0)

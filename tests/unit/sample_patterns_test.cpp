@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/sample_patterns.h"
 
+#include "scene/light.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,6 +59,23 @@ TEST(SamplePatterns, VoidAndClusterIsAnOrderOfAllPixelsWithoutLowFrequencies)
             spread += (mean - 0.5) * (mean - 0.5) / 64;
         }
     EXPECT_LT(std::sqrt(spread), 0.03);
+}
+
+TEST(SamplePatterns, ASquareFromADiskIsTheWayBack)
+{
+    for (int i = 0; i <= 20; ++i)
+        for (int j = 0; j <= 20; ++j) {
+            const vec2 u = vec2(float(i), float(j)) / 20.0f;
+            ASSERT_LT(glm::length(disk_to_square(scene::square_to_disk(u)) - (2.0f * u - 1.0f)), 1e-5f) << u.x << " " << u.y;
+        }
+    float square = 0; // over the square [-1, 1]^2 the mean of x^2 + y^2 is two thirds
+    const std::vector<vec2> disk = vogel_disk(128);
+    for (const vec2 p : disk) {
+        const vec2 q = disk_to_square(p);
+        ASSERT_LE(std::max(std::abs(q.x), std::abs(q.y)), 1.0f);
+        square += glm::dot(q, q) / 128.0f;
+    }
+    EXPECT_NEAR(square, 2.0f / 3.0f, 0.01f);
 }
 
 } // namespace
