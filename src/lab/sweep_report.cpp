@@ -49,7 +49,7 @@ std::string csv(const Experiment& experiment, const std::vector<Row>& rows)
         for (const std::string& column : texts) out += quoted(row.cell->columns.at(column)) + ",";
         for (const std::string& column : numbers) {
             const std::optional<double> value = row.number(column);
-            out += (value ? fmt::format("{}", *value) : "") + ",";
+            out += (value ? fmt::format("{:.7g}", *value) : "") + ",";
         }
         out += quoted(row.line->value("skipped", "")) + "," + quoted(row.line->at("commit").get<std::string>()) + "\r\n";
     }
