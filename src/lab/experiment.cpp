@@ -57,7 +57,7 @@ Experiment parse(const Json& json, const fs::path& file)
         {"title", "about", "scene", "scenes", "camera", "cameras", "light", "lights", "size", "sizes", "axes", "technique", "techniques",
             "reference", "metrics", "truth_samples", "warm_up", "repeats", "frame", "tables", "plots"},
         file);
-    out.title = json.value("title", out.name);
+    out.title = json.value("title", out.name), out.about = json.value("about", "");
     out.truth_samples = whole_number(json, "truth_samples", 256, 1, 1 << 20);
     out.warm_up = whole_number(json, "warm_up", 1, 1, 10000);
     out.repeats = whole_number(json, "repeats", 3, 1, 10000);

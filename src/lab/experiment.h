@@ -43,7 +43,7 @@ struct Cell {
 };
 
 struct Experiment {
-    std::string name, title;
+    std::string name, title, about;
     std::filesystem::path file;
     std::vector<std::string> axes;
     std::vector<Cell> cells; ///< those of one stage follow one another

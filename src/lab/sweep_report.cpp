@@ -95,8 +95,8 @@ std::string joined(const std::vector<Row>& rows, const char* key)
 
 std::string page(const Experiment& experiment, const std::vector<Row>& rows, const std::vector<std::string>& plots)
 {
-    std::string out
-        = fmt::format("# {}\n\nMade by `gnomon sweep` from the experiment {}; do not edit.\n\n", experiment.title, experiment.name);
+    std::string out = fmt::format("# {}\n\n{}{}Made by `gnomon sweep` from the experiment {}; do not edit.\n\n", experiment.title,
+        experiment.about, experiment.about.empty() ? "" : "\n\n", experiment.name);
     if (rows.empty()) return out + "No run is finished yet.\n";
     out += fmt::format("- device: {} ({}); processor: {}\n- commit: {}; gnomon {}\n", joined(rows, "device"), joined(rows, "driver"),
         joined(rows, "processor"), joined(rows, "commit"), joined(rows, "gnomon"));
