@@ -5,9 +5,8 @@
 #define GNOMON_FILTER_RESOLVE_GLSL
 #include "shaders/anisotropic.glsl"
 #include "shaders/filter.shared.h"
-#include "shaders/light.glsl"
+#include "shaders/hard_receiver.glsl"
 #include "shaders/light_map.glsl"
-#include "shaders/receiver.glsl"
 #include "shaders/receiver_plane.glsl"
 #include "shaders/summed_area_table.glsl"
 
@@ -32,11 +31,8 @@ struct FilterPoint {
 // False where the map has no say: `visibility` is then written.
 bool find_filter_point(out FilterPoint at)
 {
-    const Receiver r = load_receiver(c.filtering.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = 1.0;
-    if (r.background) return false;
-    visibility = 0.0;
-    if (!faces_light(c.filtering.light, r.p_world, r.n_geometric) || !light_reaches(c.filtering.light, r.p_world)) return false;
+    Receiver r;
+    if (!find_hard_receiver(c.filtering.view, c.filtering.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return false;
     at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, c.filtering.map.axes, r.p_world);
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const MapPoint m = project(layer, r.p_world);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/light.glsl"
+#include "shaders/hard_receiver.glsl"
 #include "shaders/light_map.glsl"
-#include "shaders/receiver.glsl"
 #include "techniques/template_id/template_id.shared.h"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
@@ -15,12 +14,8 @@ layout(location = 0) out float visibility;
 
 void main()
 {
-    const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = 1.0;
-    if (r.background) return;
-    visibility = 0.0;
-    if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
-
+    Receiver r;
+    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));

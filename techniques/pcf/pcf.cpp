@@ -17,9 +17,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    parts::describe_map(fields, p.map_size, p.fit, 8192);
     fields.integer("kernel", p.kernel, {1, PCF_MAX_KERNEL}, "texels",
         "Width of the filter, n taps a side or a disk's diameter; at most a quarter of the map.");
     fields.choice("form", p.form, {"box", "gaussian", "bicubic", "poisson", "vogel"},

@@ -14,9 +14,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    fields.integer("map_size", p.map_size, {16, 8192}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    parts::describe_map(fields, p.map_size, p.fit, 8192);
     fields.choice("depth", p.depth, {"d32", "d16"}, "Depth format: 32-bit float or 16-bit fixed point.");
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block by the hardware instead of taking the nearest texel.");

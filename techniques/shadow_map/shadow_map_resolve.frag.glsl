@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/light.glsl"
+#include "shaders/hard_receiver.glsl"
 #include "shaders/light_map.glsl"
-#include "shaders/receiver.glsl"
 #include "techniques/shadow_map/shadow_map.shared.h"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
@@ -18,12 +17,8 @@ layout(location = 0) out float visibility;
 
 void main()
 {
-    const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = 1.0;
-    if (r.background) return;
-    visibility = 0.0;
-    if (!faces_light(c.light, r.p_world, r.n_geometric) || !light_reaches(c.light, r.p_world)) return;
-
+    Receiver r;
+    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a

@@ -54,9 +54,7 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shade
 
 void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages)
 {
-    fields.integer("map_size", p.map_size, {16, 4096}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    describe_map(fields, p.map_size, p.fit, 4096);
     fields.integer("kernel", p.kernel, {1, 127}, "texels", "Width of the filter window; at most a quarter of the map.");
     std::vector<std::string> ways = {"box", "gaussian", "mips", "sums"};
     ways.resize(averages == Averages::all ? 4 : averages == Averages::no_sums ? 3 : 2);

@@ -63,6 +63,13 @@ void draw_light_layers(
     passes.raster(std::move(pass));
 }
 
+void describe_map(Fields& fields, int& map_size, int& fit, int largest)
+{
+    fields.integer("map_size", map_size, {16, double(largest)}, "texels", "Width and height of each depth layer.");
+    fields.choice(
+        "fit", fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+}
+
 LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
 {
     LightMap out;

@@ -27,6 +27,9 @@ struct LightMap {
     shaders::LightMap constants; ///< for shaders/light_map.glsl
 };
 
+/// Describes the two parameters that every technique with a light map has. `largest`: texels a side, by what else it keeps of a map.
+void describe_map(Fields&, int& map_size, int& fit, int largest);
+
 /// Which layouts exist for a light: directional -> one orthographic layer; spot up to 120 degrees -> one perspective layer; wider
 /// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that stands as they do:
 /// the face along +z is parallel to them, and its rows and columns to a rectangle's sides.

@@ -7,9 +7,7 @@ namespace gnomon::shadow::parts {
 
 void describe_soft(Fields& fields, shaders::SoftParams& p)
 {
-    fields.integer("map_size", p.map_size, {16, 4096}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", p.fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    describe_map(fields, p.map_size, p.fit, 4096);
     fields.real(
         "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
 }
