@@ -19,6 +19,8 @@ using namespace shadow;
 void describe(Params& p, Fields& fields)
 {
     parts::describe_soft(fields, p.soft);
+    fields.integer("layers", p.layers, {1, 8}, "surfaces",
+        "Surfaces behind one another that are kept of each texel: the first hides those behind it from the light's centre alone.");
     fields.choice("occluders", p.occluders, {"patches", "quads", "triangles", "mixed"},
         "What stands for the casters: a patch for each texel, quads between texel centres, quads with triangles where three of the four "
         "block, or patches of the finest level and quads of coarser ones.");
@@ -30,13 +32,19 @@ void describe(Params& p, Fields& fields)
         "Texels looked at: all of the map (the definition), those that can hide the light, or those and none where all of them block.");
     fields.integer("budget", p.budget, {4, 64}, "texels",
         "Wider windows are read at the finest level of the pyramid that holds them in so many texels a side.");
+    fields.choice("levels", p.levels, {"window", "caster"}, "x.");
+    fields.choice("coarse", p.coarse, {"nearest", "sampled"}, "x.");
+    fields.real("x", p.x, {0, 8}, "x", "x.");
 }
 
 class BackProjection final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         const parts::SoftMap map = parts::draw_soft_map(passes, frame, params.soft);
-        const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, map.map.depth);
+        std::vector<gpu::ImageId> layers{map.map.depth};
+        while (int(layers.size()) < params.layers)
+            layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, map.settings, layers.back()));
+        const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, layers);
         constexpr uint32_t words[] = {0, 2, 8};
         const gpu::SpecConstant spec[] = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)}};
         const bool disk = frame.light.kind() != scene::LightKind::rect;

@@ -6,10 +6,10 @@
 #include "shaders/light_map.shared.h"
 
 // From a point l of that plane to the light's own coordinates, in which it is the square [-1, 1]^2 or its inscribed disk:
-// x = scale.x l.x, y = scale.y l.y - shear x, after an exchange of l's axes where `turned`.
+// x = scale.x l.x / (1 - bend l.x), y = scale.y l.y (1 - turn x) - shear x, after an exchange of l's axes where `turned`.
 struct LightFrame {
     vec2 scale;
-    float shear;
+    float shear, bend, turn;
     bool turned;
     vec2 reach; // half the extent of the light's outline along the map's axes
 };
@@ -20,7 +20,7 @@ struct LightFrame {
 LightFrame ellipse_frame(vec3 q)
 {
     const float a = max(sqrt(q.x), LEAST_WIDTH), b = q.y / a, c = max(sqrt(max(q.z - b * b, 0.0)), LEAST_WIDTH);
-    return LightFrame(1.0 / vec2(a, c), b / c, false, sqrt(q.xz));
+    return LightFrame(1.0 / vec2(a, c), b / c, 0.0, 0.0, false, sqrt(q.xz));
 }
 
 // The parallelogram spanned by +-u and +-v, one of which lies along an axis of the map: cubes stand as their rectangles do.
@@ -38,6 +38,29 @@ LightFrame parallelogram_frame(vec2 u, vec2 v)
     const vec2 width = max(vec2(u.x, abs(v.y)), LEAST_WIDTH);
     f.scale = 1.0 / width;
     f.shear = u.y / width.y;
+    f.bend = f.turn = 0.0;
+    return f;
+}
+
+// A rectangle, or the square around a disk, seen from a face of the cube that it stands across, one pair of its sides along the face's
+// depth. n: its normal; half_depth, half_width: half its sides along that depth and across it; t: tangents of the receiver's direction;
+// d: the receiver's depth. A point u along the depth and v across is seen from there at l_n = -u D / (d - u) and l_v = (d v - u P) / (d - u)
+// on the plane through the centre, with D = d n.t its distance from the light and P = d t_v its place across. Inverse:
+// u = -d l_n / (D - l_n), v = l_v (1 - u / d) + P u / d.
+LightFrame upright_frame(vec2 n, float half_depth, float half_width, vec2 t, float d)
+{
+    LightFrame f;
+    f.turned = abs(n.y) > abs(n.x);
+    if (f.turned) n = n.yx, t = t.yx;
+    const float side = n.x < 0.0 ? -1.0 : 1.0, slope = max(side * t.x, LEAST_WIDTH), part = half_depth / d;
+    // x rises with l: it is -u where the light is seen from the positive side
+    f.scale = 1.0 / max(vec2(slope * half_depth, half_width), LEAST_WIDTH);
+    f.bend = side / (d * slope);
+    f.turn = -side * part;
+    f.shear = side * part * d * t.y * f.scale.y;
+    const float rest = max(1.0 - part, 1e-3); // no receiver sees what is further along the depth than itself
+    f.reach = vec2(slope * half_depth, half_width + part * d * abs(t.y)) / rest;
+    if (f.turned) f.reach = f.reach.yx;
     return f;
 }
 
@@ -50,18 +73,23 @@ mat3 layer_axes(LightMapLayer layer)
     return mat3(normalize(rows[0] - centring * depth), normalize(rows[1] - centring * depth), depth);
 }
 
-// Axes: the map's, depth last; t: tangents of the receiver's direction. Where light and map are not parallel, the light is projected onto
-// the plane along the ray through its centre, as a distant receiver sees it.
-LightFrame light_frame(Light light, mat3 axes, vec2 t)
+// Axes: the map's, depth last; t: tangents of the receiver's direction; d: its depth. A sphere is projected onto the plane along the ray
+// through its centre, as a distant receiver sees it.
+LightFrame light_frame(Light light, mat3 axes, vec2 t, float d)
 {
     const float r = light.radius;
     if (light.kind == LIGHT_DIRECTIONAL) return ellipse_frame(tan(r) * tan(r) * vec3(1.0, 0.0, 1.0));
     // a sphere is a disk across the ray: the projection lengthens it by 1 / cos along t
     if (light.kind == LIGHT_SPOT || light.kind == LIGHT_POINT) return ellipse_frame(r * r * vec3(1.0 + t.x * t.x, t.x * t.y, 1.0 + t.y * t.y));
-    const vec3 u = light.half_u * axes, v = light.half_v * axes;
-    const vec2 a = u.xy - u.z * t, b = v.xy - v.z * t;
-    if (light.kind == LIGHT_RECT) return parallelogram_frame(a, b);
-    return ellipse_frame(vec3(a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y));
+    const vec3 u = light.half_u * axes, v = light.half_v * axes, n = normalize(cross(u, v));
+    if (abs(n.z) < 0.5) {
+        const bool first = abs(u.z) > abs(v.z);
+        // a disk's axes may lie anywhere in its plane
+        if (light.kind == LIGHT_DISK) return upright_frame(n.xy, length(u), length(u), t, d);
+        return upright_frame(n.xy, length(first ? u : v), length(first ? v : u), t, d);
+    }
+    if (light.kind == LIGHT_RECT) return parallelogram_frame(u.xy, v.xy);
+    return ellipse_frame(vec3(u.x * u.x + v.x * v.x, u.x * u.y + v.x * v.y, u.y * u.y + v.y * v.y));
 }
 
 #endif

@@ -28,12 +28,14 @@ struct Viewpoint {
     vec2 at; // texels
     float stored; // depth of the receiver
     vec2 slope; // stored depth that its plane gains from texel to texel
+    bool faces_light; // else its plane hides the light's centre, and what lies above it is further from there
     float margin; // of the comparison, in stored depth
     float stretch;
     int layer;
     int level; // of the pyramid
     int size; // texels of the finest level
     ivec2 most; // last texel of the level
+    vec2 slab; // stored depths of the casters that are read at this level
 };
 
 struct Window {
@@ -47,21 +49,26 @@ LightFrame frame;
 float blocker_width(Viewpoint v, ivec2 texel)
 {
     if (any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, v.most))) return 0.0;
-    const float stored = texelFetch(pyramid, ivec3(texel, v.layer), v.level).g;
-    const vec2 d = (vec2(texel) + 0.5) * float(1 << v.level) - v.at;
+    const bool sampled = c.params.coarse != 0;
+    const ivec2 at = sampled ? min((texel << v.level) + ((1 << v.level) >> 1), v.size - 1) : texel;
+    const float stored = texelFetch(pyramid, ivec3(at, v.layer), sampled ? 0 : v.level).g;
+    const vec2 d = (sampled ? vec2(at) + 0.5 : (vec2(texel) + 0.5) * float(1 << v.level)) - v.at;
     // behind the receiver's plane nothing can hide the light, nor can what is as far from the light as the receiver
-    if (stored <= max(v.stored + dot(v.slope, d), v.stored) + v.margin) return 0.0;
+    const float above = stored - v.stored - dot(v.slope, d);
+    if (stored <= v.stored + v.margin || (v.faces_light ? above : -above) <= v.margin) return 0.0;
+    if (stored <= v.slab.x || stored > v.slab.y) return 0.0;
     return v.stretch / (stored - v.stored);
 }
 
 void hide(vec2 lo, vec2 hi)
 {
     if (frame.turned) lo = lo.yx, hi = hi.yx;
-    const vec2 x = vec2(lo.x, hi.x) * frame.scale.x, y = vec2(lo.y, hi.y) * frame.scale.y;
+    const vec2 x = frame.scale.x * vec2(lo.x, hi.x) / max(1.0 - frame.bend * vec2(lo.x, hi.x), 1e-6);
     // a sheared column of patches becomes a flight of steps: no gaps, and off by less than a texel
     const vec2 seen = clamp(x, -1.0, 1.0);
-    const float shift = 0.5 * frame.shear * (seen.x + seen.y);
-    hide_rectangle(vec2(x.x, y.x - shift), vec2(x.y, y.y - shift));
+    const float middle = 0.5 * (seen.x + seen.y);
+    const vec2 y = frame.scale.y * (1.0 - frame.turn * middle) * vec2(lo.y, hi.y) - frame.shear * middle;
+    hide_rectangle(vec2(x.x, y.x), vec2(x.y, y.y));
 }
 
 // Offsets of a texel's borders from the receiver; the last texel of a level holds all that is left.
@@ -136,6 +143,14 @@ void hide_quads(Viewpoint v, ivec2 first, ivec2 last)
     }
 }
 
+// Whether nothing of the light is left.
+bool all_blocks(Viewpoint v, Window w)
+{
+    const vec2 far = max(abs(vec2(w.first) - v.at), abs(vec2(w.last + 1) - v.at));
+    const float rise = dot(abs(v.slope), far);
+    return v.faces_light ? w.stored.x > v.stored + rise + v.margin : w.stored.x > v.stored + v.margin && w.stored.y < v.stored - rise - v.margin;
+}
+
 Window whole_map(Viewpoint v)
 {
     return Window(ivec2(0), ivec2(v.size - 1), texelFetch(pyramid, ivec3(0, 0, v.layer), textureQueryLevels(pyramid) - 1).xy);
@@ -156,23 +171,56 @@ Window search_window(Viewpoint v)
     return w;
 }
 
-float visible_light(Viewpoint v)
+void hide_level(Viewpoint v, Window w)
+{
+    v.most = max(ivec2(v.size >> v.level), 1) - 1;
+    // a coarse texel holds its nearest depth, wherever in it: the receiver's plane may be nearer there than at the middle
+    if (c.params.coarse == 0) v.margin += (abs(v.slope.x) + abs(v.slope.y)) * 0.5 * float((1 << v.level) - 1);
+    const ivec2 first = min(w.first >> v.level, v.most), last = min(w.last >> v.level, v.most);
+    if (occluders == PATCHES || (occluders == MIXED && v.level == 0)) hide_patches(v, first, last);
+    else hide_quads(v, first, last);
+}
+
+// Hides what the casters of one layer hide of the light; true where they are known to hide all of it.
+bool hide_casters(Viewpoint v)
 {
     Window w = whole_map(v);
     if (c.params.search != SEARCH_MAP) {
         w = search_window(v);
-        if (w.stored.y <= v.stored) return 1.0;
-        const vec2 far = max(abs(vec2(w.first) - v.at), abs(vec2(w.last + 1) - v.at));
-        const float plane = v.stored + dot(abs(v.slope), far) + v.margin;
-        if (c.params.search == SEARCH_UMBRA && w.stored.x > plane) return 0.0;
+        if (w.stored.y <= v.stored) return false;
+        if (c.params.search == SEARCH_UMBRA && all_blocks(v, w)) return true;
     }
-    while (max((w.last.x >> v.level) - (w.first.x >> v.level), (w.last.y >> v.level) - (w.first.y >> v.level)) >= c.params.budget) ++v.level;
-    v.most = max(ivec2(v.size >> v.level), 1) - 1;
-    // a coarse texel holds its nearest depth, wherever in it: the receiver's plane may be nearer there than at the middle
-    v.margin += (abs(v.slope.x) + abs(v.slope.y)) * 0.5 * float((1 << v.level) - 1);
-    const ivec2 first = min(w.first >> v.level, v.most), last = min(w.last >> v.level, v.most);
-    if (occluders == PATCHES || (occluders == MIXED && v.level == 0)) hide_patches(v, first, last);
-    else hide_quads(v, first, last);
+    if (c.params.levels == 0) {
+        while (max((w.last.x >> v.level) - (w.first.x >> v.level), (w.last.y >> v.level) - (w.first.y >> v.level)) >= c.params.budget) ++v.level;
+        v.slab = vec2(-1.0, 1e30);
+        hide_level(v, w);
+        return all_hidden();
+    }
+    const float deepest = 0.5 * float(c.params.budget - 1) * v.stretch / max(frame.reach.x, frame.reach.y);
+    const int coarsest = textureQueryLevels(pyramid) - 1;
+    const float margin = v.margin;
+    for (bool done = false; !done && !all_hidden(); ++v.level) {
+        const float near = v.stored + deepest * float(1 << v.level);
+        v.margin = margin;
+        v.slab = vec2(v.level == 0 ? -1.0 : v.stored + 0.5 * c.params.x * deepest * float(1 << v.level), near);
+        done = near >= w.stored.y || v.level == coarsest;
+        if (done) v.slab.y = 1e30;
+        const vec2 half_width = frame.reach * ((min(v.slab.y, w.stored.y) - v.stored) / v.stretch) + 1e-3;
+        const vec2 lo = v.at - half_width, hi = v.at + half_width;
+        const vec2 range = min_max_window(pyramid, v.layer, lo, hi);
+        if (range.y <= max(v.slab.x, v.stored) || range.x > v.slab.y) continue;
+        Window s = w;
+        s.first = max(ivec2(floor(max(lo, 0.0))), w.first);
+        s.last = min(ivec2(floor(clamp(hi, 0.0, float(v.size - 1)))), w.last);
+        hide_level(v, s);
+    }
+    return all_hidden();
+}
+
+float visible_light(Viewpoint v)
+{
+    for (int k = 0; k < c.params.layers; ++k, v.layer += int(c.soft.map.layer_count))
+        if (hide_casters(v)) return 0.0;
     return visible_part();
 }
 
@@ -191,11 +239,12 @@ void main()
     v.slope = -p.slope * per_metre;
     v.margin = max(4e-6 * v.stored, 1e-7) + c.soft.params.bias * (abs(v.slope.x) + abs(v.slope.y));
     v.stretch = layer.texel_metres * (layer.perspective != 0 ? per_metre * depth * depth : per_metre);
+    v.faces_light = dot(p.receiver.n_geometric, to_light(c.soft.light, p_world).xyz) > 0.0;
     v.layer = p.layer;
     v.level = 0;
     v.size = int(c.soft.map.size);
 
-    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - 0.5 * c.soft.map.size) * layer.texel_metres);
+    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - 0.5 * c.soft.map.size) * layer.texel_metres, depth);
     // areas of a disk: those of the square of its size
     if (words == 0 && c.soft.light.kind != LIGHT_RECT) frame.scale *= 1.12837917;
     // All that blocks lies above the receiver's plane, and so does what it hides of the light: not a factor of the part up there.

@@ -30,7 +30,8 @@ struct PointFit {
 PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings&);
 
 /// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
-/// `depth`'s.
-void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
+/// `depth`'s. With `before`, only what lies behind the depths of that image.
+void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
+    gpu::ImageId before = {});
 
 } // namespace gnomon::shadow::parts

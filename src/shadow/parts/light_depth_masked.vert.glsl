@@ -13,11 +13,12 @@ layout(set = 1, binding = 0, scalar) uniform Constants { LightDepthConstants c; 
 
 layout(location = 0) out vec3 uv_alpha;
 layout(location = 1) flat out uint material;
+layout(location = 2) flat out int layer;
 
 void main()
 {
     const uint slot = instance_slot(gl_InstanceIndex);
-    gl_Layer = instance_layer(gl_InstanceIndex);
+    gl_Layer = layer = instance_layer(gl_InstanceIndex);
     gl_Position = c.clip_from_world[gl_Layer] * vec4(transform_point(instances[slot], position), 1.0);
     uv_alpha = vec3(uv, unpackUnorm4x8(color).a);
     material = instances[slot].material;

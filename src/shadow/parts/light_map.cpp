@@ -25,21 +25,29 @@ Planes caster_planes(const mat4& clip_from_world, bool perspective)
     return planes;
 }
 
+gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings& settings)
+{
+    const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
+    return {format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"};
+}
+
 } // namespace
 
-void draw_light_layers(
-    gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings, gpu::ImageId depth)
+void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
+    gpu::ImageId depth, gpu::ImageId before)
 {
     SceneGpu& scene = frame.resources;
     gpu::Device& device = scene.device();
-    const gpu::Program& opaque = device.raster_program("src/shadow/parts/light_depth.vert", "");
-    const gpu::Program& masked
-        = device.raster_program("src/shadow/parts/light_depth_masked.vert", "src/shadow/parts/light_depth_masked.frag");
+    const gpu::Program& opaque
+        = device.raster_program("src/shadow/parts/light_depth.vert", before ? "src/shadow/parts/light_depth_peel.frag" : "");
+    const gpu::Program& masked = device.raster_program("src/shadow/parts/light_depth_masked.vert",
+        before ? "src/shadow/parts/light_depth_masked_peel.frag" : "src/shadow/parts/light_depth_masked.frag");
 
     gpu::RasterPass pass;
     pass.name = "light map";
     pass.program = &opaque;
     pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
+    if (before) pass.bindings.push_back(gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY));
     pass.constants = depth_constants(map);
     pass.textures = &scene.textures();
     pass.depth = gpu::DepthTarget{depth};
@@ -74,11 +82,17 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
 {
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
-    const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
-    out.depth = passes.transient(
-        {format, {settings.size, settings.size}, out.constants.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"});
+    out.depth = passes.transient(depth_image(out.constants, settings));
     draw_light_layers(passes, frame, out.constants, settings, out.depth);
     return out;
+}
+
+gpu::ImageId peel_light_map(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
+    gpu::ImageId before)
+{
+    const gpu::ImageId depth = passes.transient(depth_image(map, settings));
+    draw_light_layers(passes, frame, map, settings, depth, before);
+    return depth;
 }
 
 } // namespace gnomon::shadow::parts

@@ -42,4 +42,9 @@ inline int filter_width(int kernel, int map_size) { return std::clamp(kernel, 1,
 /// Draws all opaque and masked casters into the fitted layers: one pass, culled per layer.
 LightMap draw_light_map(gpu::PassList&, const Frame&, const LightMapSettings&);
 
+/// Draws, into an image like `before`, the first surface behind it in each texel: depth peeling (Everitt 2001). Without slope bias, which
+/// would move a surface off itself.
+gpu::ImageId peel_light_map(
+    gpu::PassList&, const Frame&, const shaders::LightMap&, const LightMapSettings&, gpu::ImageId before);
+
 } // namespace gnomon::shadow::parts

@@ -33,13 +33,26 @@ void fill_mean_pyramid(gpu::PassList& passes, gpu::ImageId image)
 
 gpu::ImageId build_min_max_pyramid(gpu::PassList& passes, gpu::ImageId from, uint32_t levels)
 {
-    const gpu::ImageDesc desc = passes.desc(from);
-    levels = std::clamp(levels, 1u, pyramid_levels(desc.size));
+    return build_min_max_pyramid(passes, std::span(&from, 1), levels);
+}
+
+gpu::ImageId build_min_max_pyramid(gpu::PassList& passes, std::span<const gpu::ImageId> from, uint32_t levels)
+{
+    const gpu::Size size = passes.desc(from[0]).size;
+    uint32_t layers = 0;
+    for (const gpu::ImageId image : from) layers += passes.desc(image).layers;
+    levels = std::clamp(levels, 1u, pyramid_levels(size));
     const gpu::ImageId image
-        = passes.transient({VK_FORMAT_R32G32_SFLOAT, desc.size, desc.layers, levels, VK_SAMPLE_COUNT_1_BIT, false, "min-max pyramid"});
+        = passes.transient({VK_FORMAT_R32G32_SFLOAT, size, layers, levels, VK_SAMPLE_COUNT_1_BIT, false, "min-max pyramid"});
     const gpu::Program& program = passes.device().raster_program("shaders/fullscreen_layers.vert", "src/shadow/parts/min_max_base.frag");
-    fullscreen_layers(passes,
-        {"min-max base", &program, {gpu::Binding(from, gpu::Use::sample).mips(0, 1)}, {}, {{image, gpu::Load::discard}}}, desc.layers);
+    uint32_t first = 0;
+    for (const gpu::ImageId source : from) {
+        const uint32_t count = passes.desc(source).layers;
+        gpu::ColorTarget target{image, gpu::Load::discard};
+        target.layer = first;
+        fullscreen_layers(passes, {"min-max base", &program, {gpu::Binding(source, gpu::Use::sample).mips(0, 1)}, {}, {target}}, count);
+        first += count;
+    }
     fill_levels(passes, image, "min-max levels", "src/shadow/parts/pyramid_min_max.frag");
     return image;
 }

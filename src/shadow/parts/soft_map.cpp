@@ -15,8 +15,8 @@ void describe_soft(Fields& fields, shaders::SoftParams& p)
 SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::SoftParams& params)
 {
     SoftMap out;
-    out.map = draw_light_map(
-        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.125f * float(params.map_size) + 1.0f});
+    out.settings = {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.125f * float(params.map_size) + 1.0f};
+    out.map = draw_light_map(passes, frame, out.settings);
     out.constants
         = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants, params};
     return out;

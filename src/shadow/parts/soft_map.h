@@ -17,6 +17,7 @@ void describe_soft(Fields&, shaders::SoftParams&);
 struct SoftMap {
     LightMap map;
     shaders::SoftResolve constants; ///< for shaders/soft_map.glsl
+    LightMapSettings settings;
 };
 
 /// Draws the light map from the light's centre, with a rim of an eighth of its side for windows that reach over the receivers.
