@@ -6,16 +6,14 @@
 TECHNIQUE_BEGIN(back_projection)
 
 struct Params {
-    SoftParams soft;
-    int layers DEFAULT(1);
-    int occluders DEFAULT(3);
+    SoftParams soft DEFAULT((SoftParams{1024, 1, 0.25f}));
+    int layers DEFAULT(2);
+    int occluders DEFAULT(0);
     int accumulate DEFAULT(2);
     int gaps DEFAULT(1);
     int search DEFAULT(2);
-    int budget DEFAULT(64);
-    int levels DEFAULT(0);
-    int coarse DEFAULT(0);
-    float x DEFAULT(0.75f);
+    int levels DEFAULT(1);
+    int budget DEFAULT(32);
 };
 
 struct ResolveConstants {

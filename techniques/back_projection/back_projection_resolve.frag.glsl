@@ -15,10 +15,12 @@ layout(set = 0, binding = 3, scalar) readonly buffer LightSamples { uint light_s
 #define MIXED 3
 #define SEARCH_MAP 0
 #define SEARCH_UMBRA 2
+#define LEVELS_WINDOW 0
 
 layout(constant_id = 0) const int occluders = PATCHES;
 layout(constant_id = 1) const int words = 8;
 layout(constant_id = 2) const int gaps = 1;
+layout(constant_id = 3) const int levels = LEVELS_WINDOW;
 
 #include "shaders/light_samples.glsl"
 
@@ -35,7 +37,7 @@ struct Viewpoint {
     int level; // of the pyramid
     int size; // texels of the finest level
     ivec2 most; // last texel of the level
-    vec2 slab; // stored depths of the casters that are read at this level
+    vec2 slice; // stored depths of the casters that are read at this level
 };
 
 struct Window {
@@ -49,14 +51,17 @@ LightFrame frame;
 float blocker_width(Viewpoint v, ivec2 texel)
 {
     if (any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, v.most))) return 0.0;
-    const bool sampled = c.params.coarse != 0;
-    const ivec2 at = sampled ? min((texel << v.level) + ((1 << v.level) >> 1), v.size - 1) : texel;
-    const float stored = texelFetch(pyramid, ivec3(at, v.layer), sampled ? 0 : v.level).g;
-    const vec2 d = (sampled ? vec2(at) + 0.5 : (vec2(texel) + 0.5) * float(1 << v.level)) - v.at;
+    ivec2 at = texel;
+    vec2 middle = (vec2(texel) + 0.5) * float(1 << v.level);
+    if (levels != LEVELS_WINDOW) {
+        at = (texel << v.level) + ((1 << v.level) >> 1);
+        middle = vec2(at) + 0.5;
+    }
+    const float stored = texelFetch(pyramid, ivec3(at, v.layer), levels != LEVELS_WINDOW ? 0 : v.level).g;
+    if (stored <= v.slice.x || stored > v.slice.y) return 0.0;
     // behind the receiver's plane nothing can hide the light, nor can what is as far from the light as the receiver
-    const float above = stored - v.stored - dot(v.slope, d);
+    const float above = stored - v.stored - dot(v.slope, middle - v.at);
     if (stored <= v.stored + v.margin || (v.faces_light ? above : -above) <= v.margin) return 0.0;
-    if (stored <= v.slab.x || stored > v.slab.y) return 0.0;
     return v.stretch / (stored - v.stored);
 }
 
@@ -156,32 +161,63 @@ Window whole_map(Viewpoint v)
     return Window(ivec2(0), ivec2(v.size - 1), texelFetch(pyramid, ivec3(0, 0, v.layer), textureQueryLevels(pyramid) - 1).xy);
 }
 
-// The texels that can hide the light: those in the pyramid from the receiver over the light, cut at the nearest depth in question. Each round
-// knows a nearest depth of fewer texels (Guennebaud et al. 2006, section 4.1).
+// The texels in the pyramid from the receiver over the light, cut at a stored depth.
+Window seen_window(Viewpoint v, float nearest)
+{
+    const vec2 half_width = frame.reach * ((nearest - v.stored) / v.stretch) + 1e-3;
+    const vec2 lo = v.at - half_width, hi = v.at + half_width, most = vec2(v.size - 1);
+    return Window(ivec2(clamp(floor(lo), vec2(0.0), most)), ivec2(clamp(floor(hi), vec2(0.0), most)), min_max_window(pyramid, v.layer, lo, hi));
+}
+
+// The texels that can hide the light. Each round knows a nearest depth of fewer of them (Guennebaud et al. 2006, section 4.1).
 Window search_window(Viewpoint v)
 {
     Window w = whole_map(v);
-    for (int i = 0; i < 3 && w.stored.y > v.stored; ++i) {
-        const vec2 half_width = frame.reach * ((w.stored.y - v.stored) / v.stretch) + 1e-3;
-        const vec2 lo = v.at - half_width, hi = v.at + half_width;
-        w.stored = min_max_window(pyramid, v.layer, lo, hi);
-        w.first = ivec2(clamp(floor(lo), 0.0, float(v.size - 1)));
-        w.last = ivec2(clamp(floor(hi), 0.0, float(v.size - 1)));
-    }
+    for (int i = 0; i < 3 && w.stored.y > v.stored; ++i) w = seen_window(v, w.stored.y);
     return w;
 }
 
 void hide_level(Viewpoint v, Window w)
 {
     v.most = max(ivec2(v.size >> v.level), 1) - 1;
-    // a coarse texel holds its nearest depth, wherever in it: the receiver's plane may be nearer there than at the middle
-    if (c.params.coarse == 0) v.margin += (abs(v.slope.x) + abs(v.slope.y)) * 0.5 * float((1 << v.level) - 1);
     const ivec2 first = min(w.first >> v.level, v.most), last = min(w.last >> v.level, v.most);
     if (occluders == PATCHES || (occluders == MIXED && v.level == 0)) hide_patches(v, first, last);
     else hide_quads(v, first, last);
 }
 
-// Hides what the casters of one layer hide of the light; true where they are known to hide all of it.
+// All casters of a window at the finest level that holds it.
+void hide_window(Viewpoint v, Window w)
+{
+    while (max((w.last.x >> v.level) - (w.first.x >> v.level), (w.last.y >> v.level) - (w.first.y >> v.level)) >= c.params.budget) ++v.level;
+    // a coarse texel holds its nearest depth, wherever in it: the receiver's plane may be nearer there than at the middle
+    v.margin += (abs(v.slope.x) + abs(v.slope.y)) * 0.5 * float((1 << v.level) - 1);
+    hide_level(v, w);
+}
+
+// Slices of casters, each twice as deep as the one before (in stored depth, to which the light's width in texels is proportional) and read
+// at a level twice as coarse: a texel hides at most 2 / budget of the light's width, or is one of the map. Where a surface crosses from one
+// slice to the next, a coarse texel may have its middle in the finer one and parts that lie in neither: an eighth is read at both.
+void hide_slices(Viewpoint v, Window w)
+{
+    const float unit = 0.5 * float(c.params.budget - 1) * v.stretch / max(frame.reach.x, frame.reach.y);
+    const int coarsest = textureQueryLevels(pyramid) - 1;
+    for (bool last = false; !last && !all_hidden(); ++v.level) {
+        const float depth = unit * float(1 << v.level);
+        last = v.stored + depth >= w.stored.y || v.level == coarsest;
+        v.slice = v.stored + vec2(v.level == 0 ? 0.0 : 0.4375 * depth, last ? 1e30 : depth);
+        Window s = w;
+        if (c.params.search != SEARCH_MAP) {
+            const float nearest = min(v.slice.y, w.stored.y);
+            s = seen_window(v, nearest);
+            if (s.stored.y <= v.slice.x || s.stored.x > v.slice.y) continue;
+            s.first = max(s.first, w.first);
+            s.last = min(s.last, w.last);
+        }
+        hide_level(v, s);
+    }
+}
+
+// Hides what the casters of one layer hide of the light; true where nothing of it is left.
 bool hide_casters(Viewpoint v)
 {
     Window w = whole_map(v);
@@ -190,30 +226,8 @@ bool hide_casters(Viewpoint v)
         if (w.stored.y <= v.stored) return false;
         if (c.params.search == SEARCH_UMBRA && all_blocks(v, w)) return true;
     }
-    if (c.params.levels == 0) {
-        while (max((w.last.x >> v.level) - (w.first.x >> v.level), (w.last.y >> v.level) - (w.first.y >> v.level)) >= c.params.budget) ++v.level;
-        v.slab = vec2(-1.0, 1e30);
-        hide_level(v, w);
-        return all_hidden();
-    }
-    const float deepest = 0.5 * float(c.params.budget - 1) * v.stretch / max(frame.reach.x, frame.reach.y);
-    const int coarsest = textureQueryLevels(pyramid) - 1;
-    const float margin = v.margin;
-    for (bool done = false; !done && !all_hidden(); ++v.level) {
-        const float near = v.stored + deepest * float(1 << v.level);
-        v.margin = margin;
-        v.slab = vec2(v.level == 0 ? -1.0 : v.stored + 0.5 * c.params.x * deepest * float(1 << v.level), near);
-        done = near >= w.stored.y || v.level == coarsest;
-        if (done) v.slab.y = 1e30;
-        const vec2 half_width = frame.reach * ((min(v.slab.y, w.stored.y) - v.stored) / v.stretch) + 1e-3;
-        const vec2 lo = v.at - half_width, hi = v.at + half_width;
-        const vec2 range = min_max_window(pyramid, v.layer, lo, hi);
-        if (range.y <= max(v.slab.x, v.stored) || range.x > v.slab.y) continue;
-        Window s = w;
-        s.first = max(ivec2(floor(max(lo, 0.0))), w.first);
-        s.last = min(ivec2(floor(clamp(hi, 0.0, float(v.size - 1)))), w.last);
-        hide_level(v, s);
-    }
+    if (levels == LEVELS_WINDOW) hide_window(v, w);
+    else hide_slices(v, w);
     return all_hidden();
 }
 
@@ -242,6 +256,7 @@ void main()
     v.faces_light = dot(p.receiver.n_geometric, to_light(c.soft.light, p_world).xyz) > 0.0;
     v.layer = p.layer;
     v.level = 0;
+    v.slice = vec2(-1.0, 1e30);
     v.size = int(c.soft.map.size);
 
     frame = light_frame(c.soft.light, layer_axes(layer), (v.at - 0.5 * c.soft.map.size) * layer.texel_metres, depth);
