@@ -31,7 +31,8 @@ void describe(Params& p, Fields& fields)
     fields.choice("search", p.search, {"map", "window", "umbra"},
         "Texels looked at: all of the map (the definition), those that can hide the light, or those and none where all of them block.");
     fields.choice("levels", p.levels, {"window", "casters"},
-        "Levels of the pyramid that are read: one for a window, with the nearest depths, or one for each slice of casters, with the depths at "
+        "Levels of the pyramid that are read: one for a window, with the nearest depths, or one for each slice of casters, with the depths "
+        "at "
         "the middles of its texels.");
     fields.integer("budget", p.budget, {4, 64}, "texels",
         "The finest level is taken that holds a window, or a slice's part of it, in so many texels a side.");
@@ -46,8 +47,8 @@ class BackProjection final : public TechniqueWith<Params> {
             layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, map.settings, layers.back()));
         const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, layers);
         constexpr uint32_t words[] = {0, 2, 8};
-        const gpu::SpecConstant spec[] = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)},
-            {3, uint32_t(params.levels)}};
+        const gpu::SpecConstant spec[]
+            = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)}, {3, uint32_t(params.levels)}};
         const bool disk = frame.light.kind() != scene::LightKind::rect;
         parts::resolve_soft(passes, frame, "techniques/back_projection/back_projection_resolve.frag", spec,
             ResolveConstants{map.constants, params},

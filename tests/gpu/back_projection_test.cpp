@@ -16,6 +16,7 @@ using gpu::floor_scene;
 constexpr double area = 0, bitmask8 = 1, bitmask16 = 2;
 constexpr double patches = 0, quads = 1, triangles = 2, mixed = 3;
 constexpr double whole_map = 0, window = 1, umbra = 2;
+constexpr double of_window = 0, of_casters = 1; // levels
 
 /// A horizontal sheet.
 void add_sheet(scene::Scene& s, float height, vec2 lo, vec2 hi)
@@ -61,12 +62,14 @@ TEST_F(BackProjection, HalfPlanesGiveTheAreaBesideTheEdge)
             const double texel = 2.0 / 766 * 4 * 2.5 / 1.5;
             const double more = occluder == patches ? 0.5 * texel : texel, less = occluder == patches ? -0.5 * texel : 0.0;
             for (const auto& [how, sampling] : {std::pair(area, 0.0), std::pair(bitmask8, 1.0 / 64), std::pair(bitmask16, 1.0 / 256)}) {
-                const double got = at_origin(s, square_light, {{"occluders", occluder}, {"accumulate", how}});
+                const double got
+                    = at_origin(s, square_light, {{"levels", of_window}, {"budget", 64}, {"occluders", occluder}, {"accumulate", how}});
                 EXPECT_GE(got - square, less - sampling - 1e-3) << "edge " << edge << ", occluders " << occluder << ", accumulate " << how;
                 EXPECT_LE(got - square, more + sampling + 1e-3) << "edge " << edge << ", occluders " << occluder << ", accumulate " << how;
                 // an area of the square as large as the disk is off by up to 0.04
                 const double shape = how == area ? 0.045 : 0.02;
-                const double round = at_origin(s, disk_light, {{"occluders", occluder}, {"accumulate", how}});
+                const double round
+                    = at_origin(s, disk_light, {{"levels", of_window}, {"budget", 64}, {"occluders", occluder}, {"accumulate", how}});
                 EXPECT_NEAR(round, disk, shape + 2 * sampling) << "edge " << edge << ", occluders " << occluder << ", accumulate " << how;
             }
         }
@@ -84,8 +87,8 @@ TEST_F(BackProjection, CoarsePatchesWidenCastersAndCoarseQuadsHardlyDo)
         scene::Scene s = floor_scene(4);
         add_blocker(s, 1.5f, {-3, -3}, {edge, 3});
         const double want = 0.5 - double(edge);
-        patch_error += (at_origin(s, square_light, {{"occluders", patches}, {"budget", 16}}) - want) / count;
-        quad_error += (at_origin(s, square_light, {{"occluders", mixed}, {"budget", 16}}) - want) / count;
+        patch_error += (at_origin(s, square_light, {{"occluders", patches}, {"levels", of_window}, {"budget", 16}}) - want) / count;
+        quad_error += (at_origin(s, square_light, {{"occluders", mixed}, {"levels", of_window}, {"budget", 16}}) - want) / count;
     }
     EXPECT_NEAR(patch_error, -1.5 * texel, 0.7 * texel);
     EXPECT_NEAR(quad_error, 0.5 * texel, 0.7 * texel);
@@ -96,7 +99,8 @@ TEST_F(BackProjection, RectanglesHideTheirShare)
     scene::Scene s = floor_scene(4);
     add_blocker(s, 2, {-0.3f, -0.1f}, {0.2f, 0.45f});
     for (const double occluder : {patches, quads, triangles})
-        EXPECT_NEAR(at_origin(s, square_light, {{"occluders", occluder}}), 1 - 0.5 * 0.55, 0.02) << occluder;
+        EXPECT_NEAR(at_origin(s, square_light, {{"levels", of_window}, {"budget", 64}, {"occluders", occluder}}), 1 - 0.5 * 0.55, 0.02)
+            << occluder;
 }
 
 TEST_F(BackProjection, MasksCountOverlapsOnce)
@@ -132,17 +136,101 @@ constexpr const char* lights[]
     = {"sun,elevation=60,azimuth=30,angle=6", "point,position=0.5/4/0.3,radius=0.3", "spot,position=1/4/1,target=0/0/0,cone=70,radius=0.2",
         "rect,position=0/4/0.5,target=0/0/0,width=0.8,height=0.5", "disk,position=0.4/4/0,target=0/0/0,radius=0.4"};
 
+TEST_F(BackProjection, SlicesOfCastersErrByAPartOfTheLight)
+{
+    // Edges that cut the light at one place, in sheets from right under it to right above the receiver: a texel is one of the map or
+    // between 1 / (budget - 1) and 2 / (budget - 1) of the light wide. Half of one either way, however the height changes the level.
+    const double edge = 0.13;
+    for (const double budget : {8.0, 32.0})
+        for (float height = 0.6f; height < 3.6f; height += 0.23f) {
+            scene::Scene s = floor_scene(4);
+            add_blocker(s, height, {-3, -3}, {float(edge), 3});
+            const double fine = 2.0 / 766 * 4 * double(4 - height) / double(height);
+            const double got = at_origin(s, square_light, {{"budget", budget}});
+            EXPECT_NEAR(got, 0.5 - edge, std::max(0.5 * fine, 1.0 / (budget - 1)) + 0.006) << "height " << height << ", budget " << budget;
+        }
+}
+
+TEST_F(BackProjection, LayersHoldWhatTheLightsCentreDoesNotSee)
+{
+    // the upper sheet hides all of the lower one from the centre, but next to nothing of the light from the receiver
+    scene::Scene s = floor_scene(4);
+    add_sheet(s, 3, {-0.03f, -0.03f}, {0.03f, 0.03f});
+    add_sheet(s, 1, {-0.08f, -0.08f}, {0.08f, 0.08f});
+    const double upper = 0.08 * 0.08, lower = 0.64 * 0.64;
+    EXPECT_NEAR(at_origin(s, square_light, {{"layers", 1}}), 1 - upper, 0.01);
+    EXPECT_NEAR(at_origin(s, square_light, {{"layers", 2}}), 1 - lower, 0.03);
+}
+
+TEST_F(BackProjection, FurtherLayersOnlyDarken)
+{
+    const scene::Scene s = clutter();
+    for (const char* light : lights) {
+        const auto with = [&](double layers) { return draw(s, from_the_side, {48, 36}, light, {{"layers", layers}}); };
+        std::vector<float> fewer = with(1);
+        for (const double layers : {2.0, 3.0}) {
+            const std::vector<float> more = with(layers);
+            for (size_t i = 0; i < more.size(); ++i) ASSERT_LE(more[i], fewer[i]) << light << ", layers " << layers;
+            fewer = more;
+        }
+        EXPECT_EQ(with(5), with(8)) << light << ": nothing has five sheets behind one another";
+    }
+}
+
+TEST_F(BackProjection, SheetsModelledTwiceAreOneLayer)
+{
+    scene::Scene once = clutter(), twice = clutter();
+    const std::vector<scene::Instance> instances = twice.instances;
+    twice.instances.insert(twice.instances.end(), instances.begin(), instances.end());
+    for (const char* light : lights)
+        EXPECT_EQ(draw(once, from_the_side, {48, 36}, light, {{"layers", 2}}), draw(twice, from_the_side, {48, 36}, light, {{"layers", 2}}))
+            << light;
+}
+
+TEST_F(BackProjection, PanelsSeenFromBesideAreExact)
+{
+    // A panel that stands upright, 2 m high from y = 1 m on, and a sheet before a receiver close to it: the ray to the height y crosses the
+    // sheet at x = 0.7 (1 - 0.6 / y). With its edge at 0.35 m the sheet hides all above y = 1.2 m; were the rays parallel, as from afar,
+    // all.
+    scene::Scene s = floor_scene(6);
+    add_sheet(s, 0.6f, {0.35f, -3}, {3, 3});
+    const scene::Camera camera = camera_above({0.7f, 0, 0}, 0.05f, 1e-4f);
+    const double got = mean(draw(s, camera, {2, 2}, "rect,position=0/2/0,target=4/2/0,width=1.6,height=2", {{"budget", 64}}));
+    EXPECT_NEAR(got, 0.1, 0.02);
+}
+
+TEST_F(BackProjection, BodiesDoNotShadowTheirOwnSides)
+{
+    // the wall's plane hides the middle of the light, but not all of it; the top, which is nearer to the light, hides nothing more
+    scene::Scene s = floor_scene(6);
+    add_sheet(s, 1, {-1, -2}, {0, 2});
+    scene::Mesh wall;
+    wall.positions = {{0, 0, -2}, {0, 1, -2}, {0, 1, 2}, {0, 0, 2}};
+    wall.indices = {0, 1, 2, 0, 2, 3};
+    scene::complete(wall);
+    s.instances.push_back({int(s.meshes.size()), mat4(1)});
+    s.meshes.push_back(wall);
+    const scene::Camera camera{.eye = {2, 0.5f, 0}, .target = {0, 0.5f, 0}, .half_height = 0.3f};
+    for (const double layers : {1.0, 2.0}) {
+        const std::vector<float> v
+            = draw(s, camera, {8, 8}, "rect,position=-0.2/4/0,target=-0.2/0/0,width=1,height=1", {{"layers", layers}});
+        for (const float x : v) ASSERT_NEAR(x, 0.3, 0.01) << "layers " << layers;
+    }
+}
+
 TEST_F(BackProjection, WindowsHoldAllThatTheWholeMapHolds)
 {
     const scene::Scene s = clutter();
     for (const char* light : lights)
-        for (const double occluder : {patches, quads, triangles})
+        for (const auto& [occluder, levels] : {std::pair(patches, of_window), std::pair(quads, of_window), std::pair(triangles, of_window),
+                 std::pair(patches, of_casters), std::pair(quads, of_casters)})
             for (const double gaps : {0.0, 1.0}) {
-                const Values values{{"occluders", occluder}, {"gaps", gaps}, {"map_size", 64}, {"budget", 64}};
+                const Values values{{"occluders", occluder}, {"gaps", gaps}, {"map_size", 64}, {"levels", levels},
+                    {"budget", levels == of_casters ? 8.0 : 64.0}};
                 Values all = values, some = values;
                 all.emplace_back("search", whole_map), some.emplace_back("search", window);
                 EXPECT_EQ(draw(s, from_the_side, {48, 36}, light, all), draw(s, from_the_side, {48, 36}, light, some))
-                    << light << ", occluders " << occluder << ", gaps " << gaps;
+                    << light << ", occluders " << occluder << ", levels " << levels << ", gaps " << gaps;
             }
 }
 

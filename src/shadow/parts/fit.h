@@ -31,7 +31,7 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 
 /// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
 /// `depth`'s. With `before`, only what lies behind the depths of that image.
-void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
-    gpu::ImageId before = {});
+void draw_light_layers(
+    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth, gpu::ImageId before = {});
 
 } // namespace gnomon::shadow::parts

@@ -87,8 +87,8 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     return out;
 }
 
-gpu::ImageId peel_light_map(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
-    gpu::ImageId before)
+gpu::ImageId peel_light_map(
+    gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings, gpu::ImageId before)
 {
     const gpu::ImageId depth = passes.transient(depth_image(map, settings));
     draw_light_layers(passes, frame, map, settings, depth, before);

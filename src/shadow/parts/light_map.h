@@ -44,7 +44,6 @@ LightMap draw_light_map(gpu::PassList&, const Frame&, const LightMapSettings&);
 
 /// Draws, into an image like `before`, the first surface behind it in each texel: depth peeling (Everitt 2001). Without slope bias, which
 /// would move a surface off itself.
-gpu::ImageId peel_light_map(
-    gpu::PassList&, const Frame&, const shaders::LightMap&, const LightMapSettings&, gpu::ImageId before);
+gpu::ImageId peel_light_map(gpu::PassList&, const Frame&, const shaders::LightMap&, const LightMapSettings&, gpu::ImageId before);
 
 } // namespace gnomon::shadow::parts
