@@ -18,7 +18,8 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_soft(fields, p.soft);
+    parts::describe_soft(
+        fields, p.soft, 3072); // two cubes of 4096 texels and their pyramid are more than 2 GiB, all that one image may take on lavapipe
     fields.integer("layers", p.layers, {1, 8}, "surfaces",
         "Surfaces behind one another that are kept of each texel: the first hides those behind it from the light's centre alone.");
     fields.choice("occluders", p.occluders, {"patches", "quads", "triangles", "mixed"},
