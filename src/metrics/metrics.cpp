@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "metrics/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::metrics {
@@ -31,6 +32,18 @@ float Grey::test(size_t pixel) const
 {
     const float value = mean(test_, pixel);
     return std::isfinite(value) ? value : truth(pixel) > 0.5f ? 0.0f : 1.0f;
+}
+
+Grey::Sizes Grey::error(size_t pixel) const
+{
+    const auto channels = size_t(test_.channels);
+    Sizes out;
+    for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
+        const float t = truth_.values[i], value = std::isfinite(test_.values[i]) ? test_.values[i] : t > 0.5f ? 0.0f : 1.0f;
+        const double e = std::abs(double(value - t));
+        out.mean += e / double(channels), out.square += e * e / double(channels), out.largest = std::max(out.largest, e);
+    }
+    return out;
 }
 
 const std::vector<Metric>& metrics()

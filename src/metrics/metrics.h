@@ -27,8 +27,8 @@ struct Metric {
     bool hard, soft; ///< for which lights it is reported
     double (*measure)(const Comparison&);
 };
-/// All numbers are over scored pixels (none scored: 0); of three channels the mean is taken. A value of `test` that is not finite
-/// counts as the farthest one from truth.
+/// All numbers are over scored pixels (none scored: 0); of three channels the mean is taken, in mae, rms and max (there the largest) that
+/// of the channels' own errors. A value of `test` that is not finite counts as the farthest one from truth.
 ///
 /// | id | light | meaning |
 /// | wrong_pixels | hard | fraction with |test - truth| > 0.5; a filtered test of exactly 0.5 is right either way |
