@@ -12,6 +12,8 @@ struct LightFrame {
     float shear;
     bool turned;
     vec2 reach; // half the extent of the light's outline along the map's axes
+    vec2 sign; // of a rectangle: x and y times this run along half_u and half_v,
+    bool exchanged; // or along half_v and half_u
 };
 
 #define LEAST_WIDTH 1e-12
@@ -20,7 +22,7 @@ struct LightFrame {
 LightFrame ellipse_frame(vec3 q)
 {
     const float a = max(sqrt(q.x), LEAST_WIDTH), b = q.y / a, c = max(sqrt(max(q.z - b * b, 0.0)), LEAST_WIDTH);
-    return LightFrame(1.0 / vec2(a, c), b / c, false, sqrt(q.xz));
+    return LightFrame(1.0 / vec2(a, c), b / c, false, sqrt(q.xz), vec2(1.0), false);
 }
 
 // The parallelogram spanned by +-u and +-v, one of which lies along an axis of the map: cubes stand as their rectangles do.
@@ -30,15 +32,24 @@ LightFrame parallelogram_frame(vec2 u, vec2 v)
     f.reach = abs(u) + abs(v);
     f.turned = min(abs(u.y), abs(v.y)) < min(abs(u.x), abs(v.x));
     if (f.turned) u = u.yx, v = v.yx;
-    if (abs(u.x) < abs(v.x)) {
+    f.exchanged = abs(u.x) < abs(v.x);
+    if (f.exchanged) {
         const vec2 w = u;
         u = v, v = w;
     }
+    f.sign = vec2(u.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0);
     if (u.x < 0.0) u = -u;
     const vec2 width = max(vec2(u.x, abs(v.y)), LEAST_WIDTH);
     f.scale = 1.0 / width;
     f.shear = u.y / width.y;
     return f;
+}
+
+// From the frame's square to coordinates along half_u and half_v.
+vec2 along_sides(LightFrame f, vec2 p)
+{
+    p *= f.sign;
+    return f.exchanged ? p.yx : p;
 }
 
 // The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that centres it.

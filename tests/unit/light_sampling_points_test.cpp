@@ -58,7 +58,7 @@ TEST(LightPoints, ThereAreAsManyAsAskedForAllOnTheLight)
                 mean += vec3(p) / float(n);
             }
             EXPECT_LT(glm::length(mean - rect.centre), 0.6f / float(n) + 0.4f * std::pow(float(n), -0.75f)) << n;
-            const LightPoints spread = light_points(light_of(sun), n, pattern, vec3(0));
+            const auto spread = light_points(light_of(sun), n, pattern, vec3(0));
             for (const vec4 p : spread.points) {
                 EXPECT_EQ(p.w, 0.0f);
                 EXPECT_NEAR(glm::length(vec3(p)), 1.0f, 1e-6f);
@@ -72,7 +72,7 @@ TEST(LightPoints, JitteredCellsOfEqualAreaHoldOnePointEach)
     // columns of a row of the square count its points; any count of rows gives strips with their share of the points, give or take one
     for (const int n : {5, 17, 64, 100}) {
         std::vector<float> heights;
-        const LightPoints spread = light_points(light_of(scene::RectLight{}), n, Pattern::jittered, vec3(0));
+        const auto spread = light_points(light_of(scene::RectLight{}), n, Pattern::jittered, vec3(0));
         for (const vec4 p : spread.points) heights.push_back(p.z + 0.5f);
         const int rows = std::max(1, int(std::lround(std::sqrt(double(n)))));
         for (int r = 0; r < rows; ++r) {
