@@ -11,8 +11,6 @@
 
 namespace gnomon::shadow::parts {
 
-namespace {
-
 int channels_of(VkFormat format)
 {
     switch (format) {
@@ -27,7 +25,7 @@ int channels_of(VkFormat format)
     }
 }
 
-gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shaders::FilterParams& params, const ValuesPass& pass)
+gpu::ImageId draw_values(gpu::PassList& passes, const LightMap& map, int prefilter, const ValuesPass& pass)
 {
     const gpu::ImageDesc depth = passes.desc(map.depth);
     const gpu::ImageId values = passes.transient(
@@ -38,7 +36,7 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shade
         out.program = &passes.device().raster_program("shaders/fullscreen.vert", pass.shader);
         out.bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
         out.bindings.insert(out.bindings.end(), pass.more.begin(), pass.more.end());
-        out.constants = pass.constants({map.constants.layers[layer], int(layer), params.prefilter});
+        out.constants = pass.constants({map.constants.layers[layer], int(layer), prefilter});
         for (int group = 0; group < pass.groups; ++group) {
             gpu::ColorTarget target{values, gpu::Load::discard};
             target.layer = layer * uint32_t(pass.groups) + uint32_t(group);
@@ -49,8 +47,6 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shade
     }
     return values;
 }
-
-} // namespace
 
 void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages)
 {
@@ -86,7 +82,7 @@ FilteredMap filter_map(
     const int width = filter_width(params.kernel, params.map_size);
     FilteredMap out;
     out.map = map;
-    out.values = make_values(passes, map, params, pass);
+    out.values = draw_values(passes, map, params.prefilter, pass);
     out.constants = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants,
         params, pass.groups, width % 2 == 0 ? 0.5f : 0.0f};
     out.constants.params.kernel = width;

@@ -31,6 +31,12 @@ struct ValuesPass {
         = nullptr; ///< instead of the mean that FilterParams asks for
 };
 
+/// Channels of a format of values.
+int channels_of(VkFormat);
+
+/// The images of values, one array: layer of the map * groups + group. `prefilter` (PREFILTER_*) is what the shader is told.
+gpu::ImageId draw_values(gpu::PassList&, const LightMap&, int prefilter, const ValuesPass&);
+
 struct FilteredMap {
     LightMap map;
     gpu::ImageId values; ///< array: layer of the map * groups + group
