@@ -23,6 +23,7 @@ SoftPoint point;
 LightMapLayer layer;
 ReceiverPlane plane;
 float half_range; // metres for one of centred depth
+float blocker_depth; // metres, once mean_blocker has answered
 
 float centred_from_stored(float z) { return centred_from_depth(layer, depth_from_stored(layer, z)); }
 
@@ -77,7 +78,7 @@ float unblocked(SoftPoint p)
     const vec2 blocker = mean_blocker(p.at - half_width, p.at + half_width);
     if (blocker.x <= 0.0) return 1.0;
 
-    const float blocker_depth = clamp(p.depth + blocker.y * half_range, min(nearest, p.depth), p.depth);
+    blocker_depth = clamp(p.depth + blocker.y * half_range, min(nearest, p.depth), p.depth);
     half_width = min(c.prefiltered.kernel_scale * window_half_width(layer, p.light, p.depth, blocker_depth), widest);
     vec2 range;
     const float known = decided(half_width, range);

@@ -28,8 +28,9 @@ int channels_of(VkFormat format)
 gpu::ImageId draw_values(gpu::PassList& passes, const LightMap& map, int prefilter, const ValuesPass& pass)
 {
     const gpu::ImageDesc depth = passes.desc(map.depth);
+    const uint32_t mips = pass.with_mips ? pyramid_levels(depth.size) : 1;
     const gpu::ImageId values = passes.transient(
-        {pass.format, depth.size, depth.layers * uint32_t(pass.groups), 1, VK_SAMPLE_COUNT_1_BIT, false, "filtered values"});
+        {pass.format, depth.size, depth.layers * uint32_t(pass.groups), mips, VK_SAMPLE_COUNT_1_BIT, false, "filtered values"});
     for (uint32_t layer = 0; layer < depth.layers; ++layer) {
         gpu::FullscreenPass out;
         out.name = "values";

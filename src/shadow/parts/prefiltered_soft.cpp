@@ -18,9 +18,9 @@ int bits_of(const PrefilteredSoftMap& map) { return integer_sum_bits(std::pow(do
 
 } // namespace
 
-void describe_prefiltered_soft(Fields& fields, shaders::PrefilteredSoftParams& p)
+void describe_prefiltered_soft(Fields& fields, shaders::PrefilteredSoftParams& p, int largest)
 {
-    describe_soft(fields, p.soft);
+    describe_soft(fields, p.soft, largest);
     fields.choice("sums", p.sums, {"integer", "float"},
         "Summed-area table of 32-bit integers, exact for windows of up to `widest`, or of 32-bit floats.");
     fields.real("widest", p.widest, {0.02, 0.5}, "of the map",

@@ -8,8 +8,8 @@
 // What soft shadow methods share that read averages over windows of one light map, of any width at one cost, in place of its texels.
 namespace gnomon::shadow::parts {
 
-/// Describes the shared parameters.
-void describe_prefiltered_soft(Fields&, shaders::PrefilteredSoftParams&);
+/// Describes the shared parameters; maps have up to `largest` texels a side.
+void describe_prefiltered_soft(Fields&, shaders::PrefilteredSoftParams&, int largest = 4096);
 
 struct PrefilteredSoftMap {
     SoftMap soft;

@@ -5,9 +5,9 @@
 
 namespace gnomon::shadow::parts {
 
-void describe_soft(Fields& fields, shaders::SoftParams& p)
+void describe_soft(Fields& fields, shaders::SoftParams& p, int largest)
 {
-    describe_map(fields, p.map_size, p.fit, 4096);
+    describe_map(fields, p.map_size, p.fit, largest);
     fields.real(
         "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
 }
