@@ -141,10 +141,10 @@ TEST_F(Cssm, BadInputGivesFractions)
              "disk,position=0/-1/0,target=0/-2/0,radius=1", "point,position=0/0.5/0,radius=2", "point,position=0/0.001/1,radius=0.5",
              "spot,position=0/30/0,target=0/0/0,cone=1,radius=5"})
         for (const double size : {16.0, 64.0})
-            for (const double sums : {0.0, 1.0})
+            for (const double prefilter : {0.0, 1.0})
                 for (const double correction : {0.0, 1.0, 2.0}) {
                     const auto got = draw(technique_cssm, s, camera, {48, 32}, light,
-                        {{"map_size", size}, {"prefilter", sums}, {"correction", correction}, {"least", 0}, {"contact", 0}});
+                        {{"map_size", size}, {"prefilter", prefilter}, {"correction", correction}, {"least", 0}, {"contact", 0}});
                     for (const float v : got) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << light << ": " << v;
                 }
 }
