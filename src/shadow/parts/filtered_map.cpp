@@ -51,7 +51,7 @@ gpu::ImageId draw_values(gpu::PassList& passes, const LightMap& map, int prefilt
 
 void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages)
 {
-    describe_map(fields, p.map_size, p.fit, 4096);
+    describe_map(fields, p.map_size, p.fitting, 4096);
     fields.integer("kernel", p.kernel, {1, 127}, "texels", "Width of the filter window; at most a quarter of the map.");
     std::vector<std::string> ways = {"box", "gaussian", "mips", "sums"};
     ways.resize(averages == Averages::all ? 4 : averages == Averages::no_sums ? 3 : 2);
@@ -68,7 +68,7 @@ LightMap draw_map_to_filter(gpu::PassList& passes, const Frame& frame, const sha
 {
     return draw_light_map(passes, frame,
         {.size = params.map_size,
-            .fit = Fit(params.fit),
+            .fitting = params.fitting,
             .guard_texels = 0.5f * float(filter_width(params.kernel, params.map_size)) + 1.0f});
 }
 
