@@ -5,9 +5,9 @@
 
 namespace gnomon::shadow::parts {
 
-void describe_soft(Fields& fields, shaders::SoftParams& p)
+void describe_soft(Fields& fields, shaders::SoftParams& p, int largest)
 {
-    describe_map(fields, p.map_size, p.fit, 4096);
+    describe_map(fields, p.map_size, p.fitting, largest);
     fields.real(
         "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
 }
@@ -16,7 +16,7 @@ SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::
 {
     SoftMap out;
     out.map = draw_light_map(
-        passes, frame, {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.125f * float(params.map_size) + 1.0f});
+        passes, frame, {.size = params.map_size, .fitting = params.fitting, .guard_texels = 0.125f * float(params.map_size) + 1.0f});
     out.constants
         = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants, params};
     return out;
