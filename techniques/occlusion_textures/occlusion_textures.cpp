@@ -28,14 +28,16 @@ void describe(Params& p, Fields& fields)
         "How depth is cut: evenly; by equal factors, where the light is a point; or so that what the scene's objects hold lies near the "
         "end of "
         "its slice.");
+    fields.choice("plane", p.middle, {"end", "middle"},
+        "Where a slice's content is taken to lie: at its end, or in its middle for receivers that are far enough behind it.");
     fields.choice("prefilter", p.prefilter, {"sums", "n_buffer", "mips"},
         "Means over windows: exact, from summed-area tables; of squares, from N-buffers of 8 bits; or of squares, from mip levels.");
-    fields.choice("fusion", p.fusion, {"product", "sum", "max", "mean"},
+    fields.choice("fusion", p.fusion, {"product", "sum", "max", "mean", "joined"},
         "What slices hide together: as if independently of one another; all beside one another; all behind the greatest; or the mean of "
         "the "
         "last two.");
     fields.choice("own", p.own, {"none", "compare"},
-        "What the receiver's own slice hides: nothing; or what 3 x 3 comparisons with its nearest content say.");
+        "What the receiver's own slice hides: nothing; or what percentage-closer soft shadows make of its nearest content.");
     fields.choice("kernel", p.equal_area, {"circumscribed", "equal_area"},
         "The square that stands for a round light: around its disk, or of the disk's area.");
 }
@@ -79,16 +81,15 @@ gpu::ImageId draw_slices(gpu::PassList& passes, const Frame& frame, const Params
     return image;
 }
 
-gpu::ImageId build_sums(gpu::PassList& passes, gpu::ImageId slices, uint32_t map_layers)
+gpu::ImageId build_sums(gpu::PassList& passes, gpu::ImageId slices, GroupConstants c)
 {
     const gpu::ImageDesc desc = passes.desc(slices);
-    const uint32_t groups = desc.layers / map_layers;
-    return parts::build_word_sums(passes, {array_of(slices)}, desc.size, (groups + 1) / 2 * map_layers,
-        "techniques/occlusion_textures/occlusion_textures_rows.comp", GroupConstants{int(map_layers), int(groups)});
+    return parts::build_word_sums(passes, {array_of(slices)}, desc.size, uint32_t((c.groups + 1) / 2 * c.layers),
+        "techniques/occlusion_textures/occlusion_textures_rows.comp", c);
 }
 
 /// 1 where a slice covers a texel, with `mips` levels of which the first is filled.
-gpu::ImageId make_cover(gpu::PassList& passes, gpu::ImageId slices, uint32_t mips)
+gpu::ImageId make_cover(gpu::PassList& passes, gpu::ImageId slices, GroupConstants c, uint32_t mips)
 {
     gpu::ImageDesc desc = passes.desc(slices);
     desc.mips = mips, desc.name = "cover";
@@ -97,7 +98,7 @@ gpu::ImageId make_cover(gpu::PassList& passes, gpu::ImageId slices, uint32_t mip
         {"cover",
             &passes.device().raster_program(
                 "shaders/fullscreen_layers.vert", "techniques/occlusion_textures/occlusion_textures_cover.frag"),
-            {array_of(slices)}, {}, {{cover, gpu::Load::discard}}},
+            {array_of(slices)}, c, {{cover, gpu::Load::discard}}},
         desc.layers);
     return cover;
 }
@@ -115,20 +116,21 @@ class Method final : public TechniqueWith<Params> {
         c.kernel_scale = params.equal_area && round ? 0.5f * std::sqrt(std::numbers::pi_v<float>) : 1.0f;
         const gpu::ImageId slices = draw_slices(passes, frame, params, map, c.slices);
 
+        const GroupConstants groups{int(map.layer_count), (params.slices + 3) / 4, params.fusion == FUSE_JOINED ? 1 : 0};
         gpu::ImageId filtered;
         if (params.prefilter == PREFILTER_SUMS) {
-            filtered = build_sums(passes, slices, map.layer_count);
+            filtered = build_sums(passes, slices, groups);
         } else if (params.prefilter == PREFILTER_N_BUFFER) {
             const parts::NBuffer buffer = parts::build_mean_n_buffer(
-                passes, make_cover(passes, slices, 1), VK_FORMAT_R8G8B8A8_UNORM, parts::n_buffer_levels(settings.size / 4));
+                passes, make_cover(passes, slices, groups, 1), VK_FORMAT_R8G8B8A8_UNORM, parts::n_buffer_levels(settings.size / 4));
             filtered = buffer.image, c.n_buffer = buffer.constants;
         } else {
-            filtered = make_cover(passes, slices, parts::pyramid_levels(passes.desc(slices).size));
+            filtered = make_cover(passes, slices, groups, parts::pyramid_levels(passes.desc(slices).size));
             parts::fill_mean_pyramid(passes, filtered);
         }
         const bool sums = params.prefilter == PREFILTER_SUMS;
         const gpu::SpecConstant spec[] = {{0, uint32_t(params.slices)}, {1, uint32_t(params.fusion)}, {2, uint32_t(params.own)},
-            {4, params.prefilter == PREFILTER_MIPS ? 1u : 0u}};
+            {3, uint32_t(params.middle)}, {4, params.prefilter == PREFILTER_MIPS ? 1u : 0u}};
         parts::resolve_soft(passes, frame,
             sums ? "techniques/occlusion_textures/occlusion_textures_sums.frag"
                  : "techniques/occlusion_textures/occlusion_textures_means.frag",

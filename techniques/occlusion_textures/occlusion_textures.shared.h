@@ -16,6 +16,7 @@
 #define FUSE_SUM 1
 #define FUSE_MAX 2
 #define FUSE_MEAN 3
+#define FUSE_JOINED 4
 
 #define OWN_NONE 0
 #define OWN_COMPARE 1
@@ -28,7 +29,8 @@ TECHNIQUE_BEGIN(occlusion_textures)
 struct Params {
     SoftParams soft;
     int slices DEFAULT(8);
-    int placement DEFAULT(PLACE_UNIFORM);
+    int placement DEFAULT(PLACE_FITTED);
+    int middle DEFAULT(1);
     int prefilter DEFAULT(PREFILTER_SUMS);
     int fusion DEFAULT(FUSE_PRODUCT);
     int own DEFAULT(OWN_COMPARE);
@@ -51,6 +53,7 @@ struct DrawConstants {
 struct GroupConstants {
     int layers;
     int groups;
+    int joined; ///< whether slices are to cover what nearer ones do
 };
 
 struct ResolveConstants {

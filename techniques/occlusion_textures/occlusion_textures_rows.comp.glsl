@@ -3,20 +3,16 @@
 // words are the sums of both halves as long as neither reaches 2^16.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/occlusion_textures/occlusion_textures.shared.h"
+#include "techniques/occlusion_textures/occlusion_textures_cover.glsl"
 
-layout(set = 0, binding = 0) uniform sampler2DArray slices;
 layout(set = 0, binding = 1) writeonly uniform uimage2DArray to;
-layout(set = 1, binding = 0, scalar) uniform Constants { GroupConstants c; };
-
-uvec4 covered(ivec2 at, int group, int layer) { return uvec4(greaterThan(texelFetch(slices, ivec3(at, group * c.layers + layer), 0), vec4(0.0))); }
 
 #define VALUE uvec4
 VALUE load(ivec3 p)
 {
     const int group = 2 * (p.z / c.layers), layer = p.z % c.layers;
-    const uvec4 low = covered(p.xy, group, layer);
-    return group + 1 < c.groups ? low | covered(p.xy, group + 1, layer) << 16 : low;
+    const uvec4 low = uvec4(covers(p.xy, group, layer));
+    return group + 1 < c.groups ? low | uvec4(covers(p.xy, group + 1, layer)) << 16 : low;
 }
 void store(ivec3 p, VALUE v) { imageStore(to, p, v); }
 #include "src/shadow/parts/summed_area_scan.glsl"

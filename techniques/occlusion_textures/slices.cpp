@@ -65,15 +65,28 @@ std::vector<float> fitted_cuts(const std::vector<Interval>& content, int count, 
     return cuts;
 }
 
-std::vector<float> make_cuts(const std::vector<Interval>& content, int count, int placement, bool perspective, float near, float far)
+/// Between the light and a hundredth of the depth that is lit from it, one slice will do for logarithms.
+float scaled(float depth, float far, bool logarithmic) { return logarithmic ? std::log(std::max(depth, 0.01f * far)) : depth; }
+
+std::vector<float> make_cuts(const std::vector<Interval>& content, int count, int placement, bool logarithmic)
 {
-    if (placement == PLACE_FITTED) return fitted_cuts(content, count, near, far);
+    Interval all{infinity, -infinity};
+    for (const Interval& i : content) all.near = std::min(all.near, i.near), all.far = std::max(all.far, i.far);
+    const float near = scaled(all.near, all.far, logarithmic), far = scaled(all.far, all.far, logarithmic);
     std::vector<float> cuts;
-    for (int i = 0; i <= count; ++i) {
-        const float t = float(i) / float(count);
-        const bool logarithmic = placement == PLACE_LOGARITHMIC && perspective && near > 0.0f;
-        cuts.push_back(logarithmic ? near * std::pow(far / near, t) : near + (far - near) * t);
+    if (placement == PLACE_FITTED) {
+        std::vector<Interval> scaled_content;
+        for (const Interval& i : content)
+            scaled_content.push_back({scaled(i.near, all.far, logarithmic), scaled(i.far, all.far, logarithmic)});
+        cuts = fitted_cuts(scaled_content, count, near, far);
+    } else {
+        for (int i = 0; i <= count; ++i) cuts.push_back(near + (far - near) * float(i) / float(count));
     }
+    if (logarithmic)
+        for (float& c : cuts) c = std::exp(c);
+    // depths of what is drawn round otherwise than those of boxes
+    const float slack = std::max(1e-4f * (all.far - all.near), 1e-5f * all.far);
+    cuts.front() = all.near - slack, cuts.back() = all.far + slack;
     return cuts;
 }
 
@@ -127,12 +140,8 @@ std::vector<Interval> cut(const std::vector<Interval>& content, int count, int p
 {
     std::vector<Interval> slices(size_t(count), {infinity, -infinity});
     if (content.empty()) return slices;
-    Interval all{infinity, -infinity};
-    for (const Interval& i : content) all.near = std::min(all.near, i.near), all.far = std::max(all.far, i.far);
-    std::vector<float> cuts = make_cuts(content, count, placement, perspective, all.near, all.far);
-    // depths of what is drawn round otherwise than those of boxes
-    const float slack = std::max(1e-4f * (all.far - all.near), 1e-5f * all.far);
-    cuts.front() = all.near - slack, cuts.back() = all.far + slack;
+    const std::vector<float> cuts = make_cuts(content, count, placement, perspective && placement != PLACE_UNIFORM);
+    const float slack = std::max(1e-4f * (cuts.back() - cuts.front()), 1e-5f * cuts.back());
     for (size_t s = 0; s < size_t(count); ++s) {
         Interval& slice = slices[s];
         for (const Interval& i : content)
