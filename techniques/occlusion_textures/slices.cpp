@@ -28,8 +28,10 @@ Masses spread(const std::vector<Interval>& content, float near, float far)
     std::array<double, bin_count> bins{};
     const double scale = double(bin_count) / std::max(double(far) - double(near), 1e-30);
     for (const Interval& i : content) {
-        const double lo = (double(i.near) - double(near)) * scale, hi = std::max((double(i.far) - double(near)) * scale, lo + 1e-9);
-        for (size_t b = std::min(size_t(std::max(lo, 0.0)), bin_count - 1); b < bin_count && double(b) < hi; ++b)
+        // what is flat has mass too, also at the end of the last bin
+        const double thin = 1e-6, lo = std::min((double(i.near) - double(near)) * scale, double(bin_count) - thin);
+        const double hi = std::max((double(i.far) - double(near)) * scale, lo + thin);
+        for (size_t b = size_t(std::max(lo, 0.0)); b < bin_count && double(b) < hi; ++b)
             bins[b] += std::max(0.0, std::min(hi, double(b + 1)) - std::max(lo, double(b))) / (hi - lo);
     }
     Masses m;

@@ -67,7 +67,7 @@ TEST_F(OcclusionTextures, HalfPlanesAreRampsWithinATexel)
     const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
     // the penumbra is 0.3 m wide; a texel of the sheet, 4 m from the light, is 4 * 2 / 766 = 0.0104 m, on the floor 0.013 m, of which half
     // at the edge; N-buffers and mips interpolate between widths that are powers of two, and mips between texels as wide
-    const std::pair<double, double> filters[] = {{sums, 0.025}, {n_buffer, 0.06}, {mips, 0.12}};
+    const std::pair<double, double> filters[] = {{sums, 0.025}, {n_buffer, 0.1}, {mips, 0.15}};
     for (const auto& [filter, allowed] : filters)
         for (const double placement : {uniform, 1.0, fitted}) {
             const auto got = profile(half_plane(), 0.4f, text, {{"prefilter", filter}, {"placement", placement}});
@@ -86,7 +86,8 @@ TEST_F(OcclusionTextures, RectanglesHideTheirShare)
     // a texel of the sheet is 0.0052 m, from here 0.0104 of the light: half of one at each edge
     EXPECT_NEAR(at_origin(s, square_light, {}), 1 - 0.5 * 0.55, 0.012);
     EXPECT_NEAR(at_origin(s, square_light, {{"prefilter", n_buffer}}), 1 - 0.5 * 0.55, 0.05);
-    EXPECT_NEAR(at_origin(s, square_light, {{"prefilter", mips}}), 1 - 0.5 * 0.55, 0.1);
+    EXPECT_NEAR(at_origin(s, square_light, {{"prefilter", mips}}), 1 - 0.5 * 0.55, 0.2)
+        << "a mean of four squares, each twice as wide as the window at worst";
 }
 
 TEST_F(OcclusionTextures, WideWindowsAreCountedInParts)
@@ -119,16 +120,18 @@ TEST_F(OcclusionTextures, EdgesBeforeRoundLightsAreRamps)
 
 TEST_F(OcclusionTextures, FusionIsAGuess)
 {
-    // 30 % and 70 % of the light: side by side, overlapping by 10 %, and one within the other. All that the guesses know is the two numbers.
+    // 30 % and 70 % of the light: side by side, overlapping by 10 %, and one within the other. All that the guesses know is the two
+    // numbers.
     for (const float begin : {-0.2f, -0.3f, -0.5f}) {
         scene::Scene s = floor_scene(4);
         add_blocker(s, 1.5f, {-0.5f, -0.5f}, {-0.2f, 0.5f});
         add_blocker(s, 0.7f, {begin, -0.5f}, {begin + 0.7f, 0.5f});
-        const auto hidden = [&](double fusion) { return 1 - at_origin(s, square_light, {{"fusion", fusion}, {"map_size", 2048}}); };
-        EXPECT_NEAR(hidden(product), 1 - 0.7 * 0.3, 0.02) << begin;
-        EXPECT_NEAR(hidden(sum), 1.0, 0.02) << begin;
-        EXPECT_NEAR(hidden(greatest), 0.7, 0.02) << begin;
-        EXPECT_NEAR(hidden(mean_of_both), 0.85, 0.02) << begin;
+        const auto hidden = [&](double fusion) { return 1 - at_origin(s, square_light, {{"fusion", fusion}}); };
+        // half a texel at each edge: 0.004 of the light for the upper sheet, 0.013 for the lower
+        EXPECT_NEAR(hidden(product), 1 - 0.7 * 0.3, 0.03) << begin;
+        EXPECT_NEAR(hidden(sum), 1.0, 0.03) << begin;
+        EXPECT_NEAR(hidden(greatest), 0.7, 0.03) << begin;
+        EXPECT_NEAR(hidden(mean_of_both), 0.85, 0.03) << begin;
     }
 }
 
@@ -172,8 +175,9 @@ constexpr const char* lights[]
 TEST_F(OcclusionTextures, ProductsLieBetweenSumsAndTheGreatest)
 {
     for (const char* light : lights) {
-        const auto with
-            = [&](double fusion) { return draw(clutter(), from_the_side, {48, 36}, light, {{"fusion", fusion}, {"map_size", 256}}); };
+        const auto with = [&](double fusion) {
+            return draw(clutter(), from_the_side, {48, 36}, light, {{"fusion", fusion}, {"map_size", 256}});
+        };
         const auto low = with(sum), high = with(greatest), between = with(product), half = with(mean_of_both);
         for (size_t i = 0; i < low.size(); ++i) {
             ASSERT_LE(low[i], between[i] + 1e-5f) << light;
@@ -191,7 +195,9 @@ TEST_F(OcclusionTextures, BlockersInTheReceiversOwnSliceHideNothingUnlessCompare
     const auto blocked = draw(clutter(), from_the_side, {48, 36}, lights[1], {{"slices", 1}, {"own", none}});
     const auto nothing = draw(floor_scene(3), from_the_side, {48, 36}, lights[1], {{"slices", 1}, {"own", none}});
     for (size_t i = 0; i < blocked.size(); ++i)
-        if (nothing[i] == 1.0f) ASSERT_EQ(blocked[i], 1.0f);
+        if (nothing[i] == 1.0f) {
+            ASSERT_EQ(blocked[i], 1.0f);
+        }
     const auto compared = draw(clutter(), from_the_side, {48, 36}, lights[1], {{"slices", 1}});
     EXPECT_LT(mean(compared), mean(blocked) - 0.05);
     // without a size of the light, one slice with comparisons is a shadow map
@@ -236,7 +242,9 @@ TEST_F(OcclusionTextures, TiltedPlanesDoNotShadowThemselves)
             const std::vector<float> open = draw(s, camera, {64, 48}, light, {{"slices", 16}, {"own", own}});
             const std::vector<float> nothing = draw(s, camera, {64, 48}, light, {{"slices", 1}, {"own", none}});
             for (size_t i = 0; i < open.size(); ++i)
-                if (nothing[i] > 0.999f) ASSERT_GT(open[i], 0.97f) << light << ", own " << own << ", pixel " << i;
+                if (nothing[i] > 0.999f) {
+                    ASSERT_GT(open[i], 0.97f) << light << ", own " << own << ", pixel " << i;
+                }
             EXPECT_NEAR(mean(open), mean(nothing), 0.01) << light << ", own " << own;
             EXPECT_GT(mean(open), 0.2) << light;
         }

@@ -74,6 +74,15 @@ TEST(OcclusionTexturesSlices, FittedOnesSeparateObjects)
     EXPECT_EQ(slice_of(cut(content, 5, PLACE_UNIFORM, true), 1.0f), slice_of(cut(content, 5, PLACE_UNIFORM, true), 2.2f));
 }
 
+TEST(OcclusionTexturesSlices, FlatThingsCountAtTheEndsToo)
+{
+    const float depths[] = {2.5f, 3.3f, 4.0f};
+    std::vector<Interval> content;
+    for (const float d : depths) content.push_back({d, d});
+    const std::vector<Interval> slices = cut(content, 3, PLACE_FITTED, true);
+    for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(slices[i].far, depths[i], 0.01f);
+}
+
 TEST(OcclusionTexturesSlices, NothingGivesEmptyOnes)
 {
     for (const Interval& s : cut({}, 8, PLACE_FITTED, true)) EXPECT_GT(s.near, s.far);
