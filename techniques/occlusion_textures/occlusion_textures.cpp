@@ -57,6 +57,15 @@ gpu::ImageId draw_slices(gpu::PassList& passes, const Frame& frame, const Params
     DrawConstants c{};
     for (uint32_t l = 0; l < map.layer_count; ++l) c.clip_from_world[l] = parts::clip_from_world(map.layers[l]);
     c.slices = slices;
+    c.size = float(settings.size);
+    for (uint32_t l = 0; l < map.layer_count; ++l) {
+        c.front[l] = vec3(0, 0, 1);
+        // the plane holds the eye, so that the layer sees it as a line: as a plane of map space it does not ask for the depth
+        for (const vec4& plane : panel_plane(frame.light)) {
+            const vec4 in_map = glm::inverse(glm::transpose(map.layers[l].map_from_world)) * plane;
+            c.front[l] = vec3(in_map.x, in_map.y, in_map.w);
+        }
+    }
     gpu::RasterPass pass;
     pass.name = "slices";
     pass.program = &passes.device().raster_program(
@@ -111,7 +120,7 @@ class Method final : public TechniqueWith<Params> {
         ResolveConstants c{};
         c.soft = parts::soft_constants(frame, map, params.soft);
         c.params = params;
-        c.slices = place_slices(caster_boxes(frame.scene), map, params.slices, params.placement);
+        c.slices = place_slices(caster_boxes(frame.scene), map, panel_plane(frame.light), params.slices, params.placement);
         const bool round = frame.light.kind() != scene::LightKind::rect;
         c.kernel_scale = params.equal_area && round ? 0.5f * std::sqrt(std::numbers::pi_v<float>) : 1.0f;
         const gpu::ImageId slices = draw_slices(passes, frame, params, map, c.slices);

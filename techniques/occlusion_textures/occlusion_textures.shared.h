@@ -32,7 +32,7 @@ struct Params {
     int placement DEFAULT(PLACE_FITTED);
     int middle DEFAULT(1);
     int prefilter DEFAULT(PREFILTER_SUMS);
-    int fusion DEFAULT(FUSE_PRODUCT);
+    int fusion DEFAULT(FUSE_JOINED);
     int own DEFAULT(OWN_COMPARE);
     int equal_area DEFAULT(1);
 };
@@ -47,6 +47,8 @@ struct Slices {
 struct DrawConstants {
     mat4 clip_from_world[LIGHT_MAP_MAX_LAYERS];
     Slices slices;
+    vec3 front[LIGHT_MAP_MAX_LAYERS]; ///< content is where dot(front, (u, v, 1)) >= 0: before the plane of a rectangle or disk
+    float size; ///< texels a side
 };
 
 /// Where group g of a layer lies in the image of slices: at g * layers + layer.

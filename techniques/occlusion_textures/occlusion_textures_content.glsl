@@ -22,6 +22,8 @@ vec4 content(int group, float z)
 
 void leave_content()
 {
+    // What stands behind a panel is between no point of it and what it lights, although a side of the cube sees it before receivers.
+    if (dot(c.front[gl_Layer], vec3(gl_FragCoord.xy / c.size, 1.0)) < 0.0) discard;
     const int first = gl_Layer * SLICE_GROUPS;
     content_0 = content(first, gl_FragCoord.z);
     content_1 = content(first + 1, gl_FragCoord.z);

@@ -14,7 +14,8 @@ layout(constant_id = 3) const bool middle = true;
 // axis in which that plane is steeper, so that the receiver's own surface, where it rises into nearer slices, is left out.
 vec4 open_part(SoftPoint p)
 {
-    const vec2 rise = p.slope * p.light;
+    // away from the light the plane goes down into the open; where the centre itself is hidden, the map shows the plane from below
+    const vec2 rise = p.slope * p.light * (p.horizon < 0.5 ? -1.0 : 1.0);
     const float hidden = 2.0 - 2.0 * p.horizon;
     if (abs(rise.x) > abs(rise.y)) return rise.x > 0.0 ? vec4(-1.0 + hidden, -1.0, 1.0, 1.0) : vec4(-1.0, -1.0, 1.0 - hidden, 1.0);
     return rise.y > 0.0 ? vec4(-1.0, -1.0 + hidden, 1.0, 1.0) : vec4(-1.0, -1.0, 1.0, 1.0 - hidden);

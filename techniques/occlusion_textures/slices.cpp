@@ -113,9 +113,20 @@ std::vector<Bounds> caster_boxes(const scene::Scene& s)
     return boxes;
 }
 
-std::vector<Interval> depths_in_layer(const std::vector<Bounds>& boxes, const LightMapLayer& layer)
+shadow::Planes panel_plane(const scene::Light& light)
 {
-    const shadow::Planes planes = shadow::parts::caster_planes(layer);
+    if (const auto* rect = std::get_if<scene::RectLight>(&light.shape)) {
+        const vec3 n = glm::normalize(glm::cross(rect->half_u, rect->half_v));
+        return {vec4(n, -glm::dot(n, rect->centre))};
+    }
+    if (const auto* disk = std::get_if<scene::DiskLight>(&light.shape)) return {vec4(disk->normal, -glm::dot(disk->normal, disk->centre))};
+    return {};
+}
+
+std::vector<Interval> depths_in_layer(const std::vector<Bounds>& boxes, const LightMapLayer& layer, const shadow::Planes& more)
+{
+    shadow::Planes planes = shadow::parts::caster_planes(layer);
+    planes.insert(planes.end(), more.begin(), more.end());
     std::vector<Interval> out;
     for (const Bounds& box : boxes) {
         std::vector<vec3> points = shadow::parts::corners(box);
@@ -156,14 +167,14 @@ std::vector<Interval> cut(const std::vector<Interval>& content, int count, int p
     return slices;
 }
 
-Slices place_slices(const std::vector<Bounds>& boxes, const LightMap& map, int count, int placement)
+Slices place_slices(const std::vector<Bounds>& boxes, const LightMap& map, const shadow::Planes& planes, int count, int placement)
 {
     Slices out;
     for (vec4& v : out.near) v = vec4(-1);
     for (vec4& v : out.far) v = vec4(-2);
     for (uint32_t l = 0; l < map.layer_count; ++l) {
         const LightMapLayer& layer = map.layers[l];
-        const std::vector<Interval> slices = cut(depths_in_layer(boxes, layer), count, placement, layer.perspective != 0);
+        const std::vector<Interval> slices = cut(depths_in_layer(boxes, layer, planes), count, placement, layer.perspective != 0);
         for (int s = 0; s < count; ++s) {
             const Interval& slice = slices[size_t(s)];
             if (slice.near > slice.far) continue;

@@ -100,13 +100,14 @@ TEST(OcclusionTexturesSlices, LayersSeeOnlyWhatStandsBeforeThem)
     const scene::View view = scene::make_view({.eye = {0, 0, 9}, .target = {0, 0, 0}}, {8, 8}, {vec3(-9), vec3(9)});
     const shaders::LightMap map = shadow::parts::fit_light_map(s, {vec3(-9), vec3(9)}, view, light, {.size = 64});
     const std::vector<Bounds> boxes{{vec3(2, -0.5f, -0.5f), vec3(3, 0.5f, 0.5f)}, {vec3(-1, -5, -1), vec3(1, -4, 1)}};
-    const std::vector<Interval> right = depths_in_layer(boxes, map.layers[0]), below = depths_in_layer(boxes, map.layers[3]);
+    const std::vector<Interval> right = depths_in_layer(boxes, map.layers[0], {}), below = depths_in_layer(boxes, map.layers[3], {});
     ASSERT_EQ(right.size(), 1u);
     EXPECT_NEAR(right[0].near, 2, 1e-3);
     EXPECT_NEAR(right[0].far, 3, 1e-3);
     ASSERT_EQ(below.size(), 1u);
     EXPECT_NEAR(below[0].near, 4, 1e-3);
-    EXPECT_TRUE(depths_in_layer(boxes, map.layers[1]).empty());
+    EXPECT_TRUE(depths_in_layer(boxes, map.layers[1], {}).empty());
+    EXPECT_TRUE(depths_in_layer(boxes, map.layers[3], {vec4(0, 1, 0, 0)}).empty()) << "behind a panel that shines upwards";
 }
 
 } // namespace
