@@ -32,7 +32,7 @@ struct Params {
     int placement DEFAULT(PLACE_FITTED);
     int middle DEFAULT(1);
     int prefilter DEFAULT(PREFILTER_SUMS);
-    int fusion DEFAULT(FUSE_JOINED);
+    int fusion DEFAULT(FUSE_PRODUCT);
     int own DEFAULT(OWN_COMPARE);
     int equal_area DEFAULT(1);
 };
