@@ -106,8 +106,9 @@ float unblocked(SoftPoint p)
                 hidden = clamp((hidden - before) / max(1.0 - before, 1e-3), 0.0, 1.0);
             }
         } else if (own == OWN_COMPARE && near > z) {
-            hidden = covered_in_own(OwnSlice((s >> 2) * int(c.soft.map.layer_count) + p.layer, s & 3, near, far, z, p.at, -p.slope * stored_per_metre(layer, p.depth)),
-                window, open);
+            const int image_layer = (s >> 2) * int(c.soft.map.layer_count) + p.layer;
+            const vec2 slope = -p.slope * stored_per_metre(layer, p.depth);
+            hidden = covered_in_own(OwnSlice(image_layer, s & 3, near, far, z, p.at, slope), window, open);
         }
         through *= 1.0 - hidden;
         sum += hidden;
