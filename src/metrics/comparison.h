@@ -44,6 +44,10 @@ double wrong_pixels(const Comparison&);
 double acne(const Comparison&);
 double leak(const Comparison&);
 double wrong_outside_band(const Comparison&);
+// penumbra.cpp
+double penumbra_width(const Comparison&);
+double banding(const Comparison&);
+double grain(const Comparison&);
 // edges.cpp
 double edge_displacement(const Comparison&);
 

@@ -47,6 +47,9 @@ const std::vector<Metric>& metrics()
         {"bias", "visibility", "mean of test - truth: above 0 is too light", true, true, bias},
         {"bias_penumbra", "visibility", "bias within the true penumbra: its softness is wrong", false, true, bias_penumbra},
         {"bias_outside", "visibility", "bias outside of the true penumbra", false, true, bias_outside},
+        {"penumbra_width", "fraction", "how far the penumbrae's widths are from the true ones", false, true, penumbra_width},
+        {"banding", "visibility", "bends and steps of the error within the true penumbra", false, true, banding},
+        {"grain", "visibility", "what single pixels stray from the error around them, within the true penumbra", false, true, grain},
         {"noise", "visibility", "standard error of the truth: smaller differences say nothing", false, true, noise},
     };
     return all;

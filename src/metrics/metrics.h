@@ -38,7 +38,10 @@ struct Metric {
 /// | edge_displacement | hard | pixels from each edge of one picture to the nearest of the other, at most 32; mean over both ways |
 /// | mae, rms, max, bias | both | of test - truth |
 /// | bias_penumbra, bias_outside | soft | bias where truth is inside (0.001, 0.999), and elsewhere |
-/// | noise | soft | root of the mean variance of truth: differences below it say nothing |
+/// | penumbra_width | soft | sum of |test - truth| / sum of truth, of widths from 10 % to 90 % along rows and columns; none found: all of
+/// it | | banding | soft | within the true penumbra: mean |second difference| along rows and columns of the error's 5x5 median | | grain |
+/// soft | there: mean difference of the error to that median | | noise | soft | root of the mean variance of truth: differences below it
+/// say nothing |
 const std::vector<Metric>& metrics();
 
 /// All metrics that apply.

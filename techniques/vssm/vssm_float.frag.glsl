@@ -3,11 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/vssm/vssm.shared.h"
 
-#include "shaders/soft_map.glsl"
 #include "shaders/summed_area_table.glsl"
+#include "techniques/vssm/vssm_resolve.glsl"
 
 layout(set = 0, binding = 4) uniform sampler2DArray sums_image;
 
-vec2 stored_moments(int layer, vec2 lo, vec2 hi) { return window_mean(sums_image, layer, lo, hi).xy; }
-
-#include "techniques/vssm/vssm_resolve.glsl"
+vec2 window_moments(vec2 lo, vec2 hi)
+{
+    return window_mean(sums_image, point.layer, lo, hi).xy;
+}

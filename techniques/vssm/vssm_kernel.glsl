@@ -146,7 +146,7 @@ float bounded_dark(Evidence e, KernelSettings k)
 // Blocked area and the mean x of the blockers. With all that is not blocked taken to lie at the receiver's depth, the mean over a
 // window is (1 - P) times the mean over its blockers (Dong 2011, equation 7.4), P being the lit fraction: with
 // x, z_occ = (mu - P t) / (1 - P) is mu / (1 - P).
-vec2 mean_blocker(Evidence e, KernelSettings k)
+vec2 kernel_blocker(Evidence e, KernelSettings k)
 {
     const float area = bounded_dark(e, k) + e.compared.y;
     return vec2(area, area > 0.0 ? (e.bounded.y + e.compared.z) / area : 0.0);

@@ -43,7 +43,7 @@ void main()
     KernelResult r;
     r.area = e.lit + e.bounded.x + e.compared.x;
     r.compared = e.compared.x;
-    r.blocker = mean_blocker(e, k);
+    r.blocker = kernel_blocker(e, k);
     k.per_cell = false;
     r.pooled = kernel_visibility(e, k, 0.0);
     k.per_cell = true;

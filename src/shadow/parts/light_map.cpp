@@ -70,11 +70,19 @@ void draw_light_layers(
         device.raster_program("src/shadow/parts/light_depth_masked.vert", "src/shadow/parts/light_depth_masked.frag"));
 }
 
-void describe_map(Fields& fields, int& map_size, int& fit, int largest)
+void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int largest)
 {
     fields.integer("map_size", map_size, {16, double(largest)}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    fields.choice("fit", p.fit, {"scene", "view", "cascades"},
+        "What a directional light's map covers: the whole scene, the part of it that the view sees, or that part in several layers, nearer "
+        "ones with smaller texels.");
+    fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` is cascades.");
+    fields.real("cascade_split", p.split, {0, 1}, "",
+        "Cascades' ends: 0, each as long as the others; 1, each the same multiple of the one before; between.");
+    fields.flag("stable_cascades", p.stable,
+        "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
+        "waste "
+        "texels.");
 }
 
 LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)

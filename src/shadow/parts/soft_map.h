@@ -11,7 +11,7 @@
 // What soft shadow methods that look at one light map share: its parameters, its drawing, and the pass that writes the result.
 namespace gnomon::shadow::parts {
 
-/// Describes the shared parameters. `largest`: of the map's texels a side.
+/// Describes the shared parameters; maps have up to `largest` texels a side.
 void describe_soft(Fields&, shaders::SoftParams&, int largest = 4096);
 
 struct SoftMap {
