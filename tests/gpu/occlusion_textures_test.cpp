@@ -145,7 +145,7 @@ TEST_F(OcclusionTextures, JoinedSlicesKeepTiltedSheetsWhole)
     scene::complete(roof);
     s.instances.push_back({int(s.meshes.size()), mat4(1)});
     s.meshes.push_back(roof);
-    const Values even{{"placement", uniform}, {"slices", 16}};
+    const Values even{{"placement", uniform}, {"slices", 16}, {"map_size", 512}};
     const auto with = [&](double fusion) {
         Values values = even;
         values.emplace_back("fusion", fusion);
@@ -239,8 +239,8 @@ TEST_F(OcclusionTextures, TiltedPlanesDoNotShadowThemselves)
         {"sun,elevation=60,azimuth=20,angle=5", "sun,elevation=15,azimuth=200,angle=5", "point,position=1/2/0.5,radius=0.4",
             "rect,position=3/3/3,target=0/0/0,width=2,height=1", "disk,position=3/2/-3,target=0/0/0,radius=1"})
         for (const double own : {0.0, 1.0}) {
-            const std::vector<float> open = draw(s, camera, {64, 48}, light, {{"slices", 16}, {"own", own}});
-            const std::vector<float> nothing = draw(s, camera, {64, 48}, light, {{"slices", 1}, {"own", none}});
+            const std::vector<float> open = draw(s, camera, {64, 48}, light, {{"slices", 16}, {"own", own}, {"map_size", 512}});
+            const std::vector<float> nothing = draw(s, camera, {64, 48}, light, {{"slices", 1}, {"own", none}, {"map_size", 512}});
             for (size_t i = 0; i < open.size(); ++i)
                 if (nothing[i] > 0.999f) {
                     ASSERT_GT(open[i], 0.97f) << light << ", own " << own << ", pixel " << i;
@@ -262,12 +262,11 @@ TEST_F(OcclusionTextures, BadInputGivesFractions)
              "spot,position=0/30/0,target=0/0/0,cone=1,radius=5"})
         for (const double size : {16.0, 64.0})
             for (const double filter : {sums, n_buffer, mips})
-                for (const double fusion : {product, joined})
-                    for (const double slices : {5.0, 16.0}) {
-                        const auto got = draw(s, camera, {48, 32}, light,
-                            {{"map_size", size}, {"prefilter", filter}, {"fusion", fusion}, {"slices", slices}});
-                        for (const float v : got) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << light << ": " << v;
-                    }
+                for (const auto& [fusion, slices] : {std::pair(product, 16.0), std::pair(joined, 5.0)}) {
+                    const auto got = draw(
+                        s, camera, {48, 32}, light, {{"map_size", size}, {"prefilter", filter}, {"fusion", fusion}, {"slices", slices}});
+                    for (const float v : got) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << light << ": " << v;
+                }
 }
 
 } // namespace
