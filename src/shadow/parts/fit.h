@@ -48,4 +48,17 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 /// `depth`'s.
 void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
 
+/// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
+/// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, and the
+/// constants begin with clip_from_world for each layer.
+void draw_casters(
+    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass, const gpu::Program& masked);
+
+/// What draws into a layer of the map: its clip coordinates.
+mat4 clip_from_world(const shaders::LightMapLayer&);
+
+/// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
+/// onto it, not lost.
+Planes caster_planes(const shaders::LightMapLayer&);
+
 } // namespace gnomon::shadow::parts

@@ -19,7 +19,13 @@ struct SoftMap {
     shaders::SoftResolve constants; ///< for shaders/soft_map.glsl
 };
 
-/// Draws the light map from the light's centre, with a rim of an eighth of its side for windows that reach over the receivers.
+/// How the light map is fitted: with a rim of an eighth of its side for windows that reach over the receivers.
+LightMapSettings soft_map_settings(const shaders::SoftParams&);
+
+/// The constants of a map so fitted, for those who draw it themselves.
+shaders::SoftResolve soft_constants(const Frame&, const shaders::LightMap&, const shaders::SoftParams&);
+
+/// Draws the light map from the light's centre.
 SoftMap draw_soft_map(gpu::PassList&, const Frame&, const shaders::SoftParams&);
 
 /// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow.
