@@ -8,11 +8,9 @@
 #include "shaders/chebyshev.glsl"
 #include "techniques/vssm/vssm.shared.h"
 
-// Whoever includes this defines Sums, the type of a table's entries (uvec2 or vec2), and `grid`, a constant; and says where depths come
-// from.
+// Whoever includes this defines what shaders/window_grid.glsl wants, but for its types, and says where depths come from.
+#define Means vec2
 vec2 window_moments(vec2 lo, vec2 hi); // means of z and z^2 over a window, texels
-Sums sums_at(ivec2 entry); // of a summed-area table of stored values
-ivec2 texels_of_map();
 vec2 moments_from_mean(vec2 stored); // z and z^2 from the mean of stored values
 float texel_depth(ivec2 texel);
 float receiver_depth(vec2 at); // of the receiver's plane
@@ -87,7 +85,13 @@ bool wants_division(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi, float 
     return open && divisible;
 }
 
-#include "techniques/vssm/vssm_grid.glsl"
+#include "shaders/window_grid.glsl"
+
+void weigh_part(inout Evidence e, KernelSettings k, vec2 mean, vec2 lo, vec2 hi, float area)
+{
+    const bool open = inconclusive(e, k, relative_moments(moments_from_mean(mean), lo, hi), hi - lo, area, false);
+    if (open) e.compared += area * vec3(1.0, compare_quarters(lo, hi));
+}
 
 // The place of a node among those of its level, from its Morton code: x in the even bits, y in the odd ones.
 ivec2 morton_place(int code)

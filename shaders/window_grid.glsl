@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uniform subdivision. Inside the window parts are cut at whole texels, so that four of them share an entry of the table: with g parts a side
-// (g + 3)^2 fetches, where parts that begin and end inside texels take 16 g^2 entries. Only the window's own rim covers parts of texels,
-// as without them penumbrae would move by whole texels.
-#ifndef GNOMON_VSSM_GRID_GLSL
-#define GNOMON_VSSM_GRID_GLSL
+// A window divided into a grid of parts. Inside the window they are cut at whole texels, so that four of them share an entry of the table: with g
+// parts a side (g + 3)^2 fetches, where parts that begin and end inside texels take 16 g^2 entries. Only the window's own rim covers parts
+// of texels, as without them penumbrae would move by whole texels.
+#ifndef GNOMON_WINDOW_GRID_GLSL
+#define GNOMON_WINDOW_GRID_GLSL
+
+// Whoever includes this defines Sums and Means, the types of a table's entries and of averages over them (uvec2 and vec2, say); a constant
+// `grid`, parts a side; the types KernelSettings, with a member `centred`, and Evidence; and these.
+Sums sums_at(ivec2 entry); // of a summed-area table
+ivec2 texels_of_map();
+void weigh_part(inout Evidence e, KernelSettings k, Means mean, vec2 lo, vec2 hi, float area); // area: its share of the window
 
 // A window along one axis, not empty and within the map: the texel in which it begins, and that in which it ends or one behind its end.
 struct GridAxis {
@@ -50,11 +56,10 @@ void add_grid(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi)
     const ivec2 size = texels_of_map();
     const GridAxis across = grid_axis(lo.x, hi.x, size.x), down = grid_axis(lo.y, hi.y, size.y);
     const vec2 extent = vec2(across.hi - across.lo, down.hi - down.lo), middle = vec2(across.lo, down.lo) + 0.5 * extent;
-    const float whole = extent.x * extent.y;
     Sums above[grid + 3];
     for (int x = 0; x < grid + 3; ++x) above[x] = sums_at(ivec2(run_begin(across, x), run_begin(down, 0)));
-    vec2 part[grid];
-    for (int x = 0; x < grid; ++x) part[x] = vec2(0.0);
+    Means part[grid];
+    for (int x = 0; x < grid; ++x) part[x] = Means(0.0);
 
     for (int run = 0; run < grid + 2; ++run) {
         const int y = run_begin(down, run + 1);
@@ -66,27 +71,17 @@ void add_grid(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi)
             entry = sums_at(ivec2(run_begin(across, x + 1), y));
             const Sums right = entry - above[x + 1];
             above[x + 1] = entry;
-            part[clamp(x - 1, 0, grid - 1)] += weight * run_weight(across, x) * vec2(right - left);
+            part[clamp(x - 1, 0, grid - 1)] += weight * run_weight(across, x) * Means(right - left);
             left = right;
         }
         if (run == 0 || run == grid) continue; // a row of parts that the next run completes
         const int row = min(run - 1, grid - 1);
-        const vec2 rows = vec2(grid_cut(down, row), grid_cut(down, row + 1));
-        uint open = 0u;
         for (int x = 0; x < grid; ++x) {
-            const vec2 at = vec2(grid_cut(across, x), rows.x), end = vec2(grid_cut(across, x + 1), rows.y);
+            const vec2 at = vec2(grid_cut(across, x), grid_cut(down, row)), end = vec2(grid_cut(across, x + 1), grid_cut(down, row + 1));
             const float texels = (end.x - at.x) * (end.y - at.y);
-            if (texels > 0.0) {
-                const vec2 m = relative_moments(moments_from_mean(part[x] / texels), at, end);
-                if (inconclusive(e, k, m, end - at, texels / whole * centre_weight(k, (at + end - 2.0 * middle) / extent), false)) open |= 1u << x;
-            }
-            part[x] = vec2(0.0);
-        }
-        for (; open != 0u; open &= open - 1u) {
-            const int x = findLSB(open);
-            const vec2 at = vec2(grid_cut(across, x), rows.x), end = vec2(grid_cut(across, x + 1), rows.y);
-            const float area = (end.x - at.x) * (end.y - at.y) / whole * centre_weight(k, (at + end - 2.0 * middle) / extent);
-            e.compared += area * vec3(1.0, compare_quarters(at, end));
+            const float area = texels / (extent.x * extent.y) * centre_weight(k, (at + end - 2.0 * middle) / extent);
+            if (texels > 0.0) weigh_part(e, k, part[x] / texels, at, end, area);
+            part[x] = Means(0.0);
         }
     }
 }
