@@ -10,9 +10,15 @@ layout(constant_id = 0) const int grid = 3;
 
 #include "techniques/moment_soft/moment_soft_kernel.glsl"
 
+// The steepest receiver that `tilt` clears, metres of depth a metre: farther out it would stand before its blockers, and light gets into
+// closed boxes.
+const float tilt_limit = 16.0;
+
 KernelSettings kernel_settings(bool centred)
 {
-    return KernelSettings(1e-6 * c.params.moment_bias, 2.0 * c.params.depth_bias, c.params.tilt * abs(point.slope) / half_range, centred);
+    const float cleared = min(tilt_limit * metres_per_texel(layer, point.depth) / max(length(point.slope), 1e-20), 1.0);
+    const vec2 tilt = c.params.tilt * cleared / half_range * abs(point.slope);
+    return KernelSettings(1e-6 * c.params.moment_bias, 2.0 * c.params.depth_bias, tilt, centred);
 }
 
 vec2 mean_blocker(vec2 lo, vec2 hi)
