@@ -14,7 +14,7 @@ SHARED_BEGIN(shaders)
 struct PrefilteredSoftParams {
     SoftParams soft;
     int sums DEFAULT(SUMS_INTEGER);
-    float widest DEFAULT(0.25f); ///< of the map
+    float widest DEFAULT(0.0625f); ///< of the map
     int equal_area DEFAULT(1);
     float contact DEFAULT(0.01f); ///< scene radius
 };

@@ -12,7 +12,7 @@
 TECHNIQUE_BEGIN(cssm)
 
 struct Params {
-    PrefilteredSoftParams prefiltered DEFAULT({{512}});
+    PrefilteredSoftParams prefiltered DEFAULT({{512}, SUMS_INTEGER, 0.25f});
     int terms DEFAULT(4);
     int prefilter DEFAULT(CSSM_SUMS);
     int format DEFAULT(1);

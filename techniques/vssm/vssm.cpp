@@ -17,10 +17,11 @@ void describe(Params& p, Fields& fields)
     fields.choice("subdivision", p.subdivision, {"none", "uniform", "adaptive", "mixed"},
         "How kernels are divided of which the moments alone say nothing: not at all (they count as lit); into a grid; by a quad-tree; or a "
         "grid for the blockers' depth and a tree for the shadow.");
-    fields.integer("grid", p.grid, {2, 16}, "", "Parts a side of uniform subdivision.");
+    fields.integer("grid", p.grid, {2, 8}, "", "Parts a side of uniform subdivision.");
     fields.integer("height", p.height, {1, 4}, "", "Levels of the quad-tree below the kernel itself.");
     fields.choice("bound", p.per_cell, {"pooled", "per_cell"},
         "Chebyshev's bound of all of a kernel's undivided parts at once, or of each by itself, dividing also where depths vary: tighter.");
+    fields.flag("centred", p.centred, "In the grid of the search, blockers near the window's middle count more for the mean depth.");
     fields.real("flat_deviation", p.flat_deviation, {0, 0.1}, "depth range",
         "A part of a kernel whose depths have a smaller standard deviation than this is one surface.");
     fields.real("min_deviation", p.min_deviation, {0, 0.1}, "depth range", "Standard deviation that a window is given at least.");
@@ -40,7 +41,7 @@ class Method final : public TechniqueWith<Params> {
 
         const uint32_t search = uint32_t(params.subdivision == SUBDIVIDE_MIXED ? SUBDIVIDE_UNIFORM : params.subdivision);
         const uint32_t filter = uint32_t(params.subdivision == SUBDIVIDE_MIXED ? SUBDIVIDE_ADAPTIVE : params.subdivision);
-        const gpu::SpecConstant modes[] = {{0, search}, {1, filter}, {2, uint32_t(params.per_cell)}};
+        const gpu::SpecConstant modes[] = {{0, search}, {1, filter}, {2, uint32_t(params.per_cell)}, {3, uint32_t(params.grid)}};
         parts::resolve_prefiltered_soft(passes, frame, map,
             integer ? "techniques/vssm/vssm_integer.frag" : "techniques/vssm/vssm_float.frag", modes,
             ResolveConstants{map.soft.constants, map.constants, params},

@@ -12,10 +12,11 @@ TECHNIQUE_BEGIN(vssm)
 
 struct Params {
     PrefilteredSoftParams prefiltered;
-    int subdivision DEFAULT(SUBDIVIDE_MIXED);
+    int subdivision DEFAULT(SUBDIVIDE_UNIFORM);
     int grid DEFAULT(5);
     int height DEFAULT(3);
     int per_cell DEFAULT(1);
+    int centred DEFAULT(1);
     float flat_deviation DEFAULT(0.001f);
     float min_deviation DEFAULT(0.0005f);
     float bleed_reduction DEFAULT(0.0f);

@@ -5,7 +5,7 @@
 #include "techniques/esm/esm.glsl"
 #include "techniques/evsm/evsm.glsl"
 #include "techniques/lvsm/lvsm.glsl"
-#include "techniques/msm/msm.glsl"
+#include "shaders/moments.glsl"
 #include "techniques/power_cdf/power_cdf.glsl"
 #include "tests/gpu/filter_identities.shared.h"
 
