@@ -8,11 +8,13 @@
 #define CORRECT_NONE 0
 #define CORRECT_SHARPEN 1
 #define CORRECT_LEVEL 2
+// A map of 512 texels, windows of up to a quarter of it; a macro, since GLSL takes no commas in DEFAULT.
+#define CSSM_MAP {{512}, SUMS_INTEGER, 0.25f}
 
 TECHNIQUE_BEGIN(cssm)
 
 struct Params {
-    PrefilteredSoftParams prefiltered DEFAULT({{512}, SUMS_INTEGER, 0.25f});
+    PrefilteredSoftParams prefiltered DEFAULT(CSSM_MAP);
     int terms DEFAULT(4);
     int prefilter DEFAULT(CSSM_SUMS);
     int format DEFAULT(1);
