@@ -16,7 +16,7 @@ SHARED_BEGIN(shaders)
 /// Parameters that all prefiltered maps share (parts::describe_filter).
 struct FilterParams {
     int map_size DEFAULT(1024);
-    int fit DEFAULT(1);
+    FitParams fitting;
     int kernel DEFAULT(9);
     int prefilter DEFAULT(0); ///< PREFILTER_*
     float bias DEFAULT(0.06f); ///< widths of the window

@@ -23,9 +23,18 @@ int select_cube_layer(vec3 centre, mat3 axes, vec3 p_world)
     return d.z >= 0.0 ? 4 : 5;
 }
 
-int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec3 p_world)
+// Cascades lie one behind another along the view's axis: the number of those that end before p.
+int select_cascade(vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 {
-    return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : 0;
+    const vec4 depth = vec4(dot(p_world - centre, axes[2]));
+    const vec4 ended = vec4(greaterThan(depth, splits[0])) + vec4(greaterThan(depth, splits[1]));
+    return int(dot(ended, vec4(1.0)));
+}
+
+int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
+{
+    if (layout_kind == LIGHT_MAP_SINGLE) return 0;
+    return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : select_cascade(centre, axes, splits, p_world);
 }
 
 float stored_from_depth(LightMapLayer layer, float depth)

@@ -5,9 +5,18 @@
 
 #define LIGHT_MAP_SINGLE 0
 #define LIGHT_MAP_CUBE 1
+#define LIGHT_MAP_CASCADES 2
 #define LIGHT_MAP_MAX_LAYERS 8
 
 SHARED_BEGIN(shaders)
+
+/// Parameters of where a map's layers lie (parts::describe_map).
+struct FitParams {
+    int fit DEFAULT(1); ///< parts::Fit
+    int cascades DEFAULT(4);
+    float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
+    int stable DEFAULT(1);
+};
 
 /// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth.
 struct LightMapLayer {
@@ -24,9 +33,11 @@ struct LightMap {
     uint layer_count;
     float size; ///< texels a side
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
-    vec3 centre; ///< where the layers look from (cube)
+    vec3 centre; ///< where the layers look from (cube), or the view's eye (cascades)
     float padding;
-    mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z
+    mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
+               ///< along whose third axis cascades are split
+    vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
 };
 

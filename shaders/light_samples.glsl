@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What part of a light is hidden: bits for samples of it (shadow/parts/light_samples.h), or a sum of areas. Before the include: a buffer
-// `uint light_samples[]` with the table, and a constant `words`, the number of words in a mask (2 or 8; 0 sums areas).
+// `uint light_samples[]` with the table, and a constant `words`, the number of words in a mask (2 or 8; 0 sums areas); a buffer
+// `vec4 light_image[]` and a constant `textured`, false where the light has no image and the buffer is not read.
 #ifndef GNOMON_LIGHT_SAMPLES_GLSL
 #define GNOMON_LIGHT_SAMPLES_GLSL
+
+#include "shaders/light_image.glsl"
 
 #define LIGHT_SAMPLE_GRID 256
 
 uint hidden_samples[8] = uint[8](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 float hidden_area = 0.0; // of 4, the square [-1, 1]^2
+vec3 hidden_emission = vec3(0.0); // of 1, where areas are summed
 
 // The first border of the grid such that no sample beyond it lies below x.
 int sample_border(float x) { return int(clamp(ceil(x * (0.5 * LIGHT_SAMPLE_GRID) + (0.5 * LIGHT_SAMPLE_GRID - 0.5)), 0.0, LIGHT_SAMPLE_GRID)); }
@@ -25,6 +29,7 @@ void hide_rectangle(vec2 lo, vec2 hi)
     if (words == 0) {
         const vec2 side = max(clamp(hi, -1.0, 1.0) - clamp(lo, -1.0, 1.0), 0.0);
         hidden_area += side.x * side.y;
+        if (textured && side.x * side.y > 0.0) hidden_emission += emitted_within(lo, hi);
         return;
     }
     const uint first = light_samples[sample_border(lo.x)], end = light_samples[sample_border(hi.x)];
@@ -50,6 +55,17 @@ float visible_part()
     int hidden = 0;
     for (int k = 0; k < words; ++k) hidden += bitCount(hidden_samples[k]);
     return 1.0 - float(hidden) / float(32 * words);
+}
+
+// The same in each channel of a light with an image.
+vec3 visible_colors()
+{
+    if (words == 0) return max(vec3(0.0), 1.0 - hidden_emission);
+    vec3 sum = vec3(0.0);
+    const int first = int(light_image[0].z);
+    for (int k = 0; k < words; ++k)
+        for (uint left = ~hidden_samples[k]; left != 0u; left &= left - 1u) sum += light_image[first + 32 * k + findLSB(left)].rgb;
+    return min(sum, vec3(1.0));
 }
 
 #endif

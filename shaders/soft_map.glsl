@@ -13,7 +13,10 @@ layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D normal_image;
 layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 
-layout(location = 0) out float visibility;
+#ifndef SOFT_VISIBILITY
+#define SOFT_VISIBILITY float // vec4 where the technique writes colours
+#endif
+layout(location = 0) out SOFT_VISIBILITY visibility;
 
 struct SoftPoint {
     int layer; // of the map
@@ -29,13 +32,13 @@ struct SoftPoint {
 bool find_soft_point(out SoftPoint p)
 {
     p.receiver = load_receiver(c.soft.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = 1.0;
+    visibility = SOFT_VISIBILITY(1.0);
     if (p.receiver.background) return false;
-    visibility = 0.0;
+    visibility = SOFT_VISIBILITY(0.0);
     const vec3 p_world = p.receiver.p_world, n = p.receiver.n_geometric;
     p.horizon = light_reaches(c.soft.light, p_world) ? light_above_horizon(c.soft.light, p_world, n) : 0.0;
     if (p.horizon <= 0.0) return false;
-    p.layer = select_layer(c.soft.map.layout_kind, c.soft.map.centre, c.soft.map.axes, p_world);
+    p.layer = select_layer(c.soft.map.layout_kind, c.soft.map.centre, c.soft.map.axes, c.soft.map.splits, p_world);
     const LightMapLayer layer = c.soft.map.layers[p.layer];
     const MapPoint m = project(layer, p_world);
     p.at = m.uv * c.soft.map.size;

@@ -10,7 +10,7 @@ SHARED_BEGIN(shaders)
 /// Parameters that they share (parts::describe_soft).
 struct SoftParams {
     int map_size DEFAULT(1024);
-    int fit DEFAULT(1);
+    FitParams fitting;
     float bias DEFAULT(1.0f); ///< texels
 };
 

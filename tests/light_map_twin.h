@@ -16,7 +16,13 @@ struct MapPoint {
 
 inline int select_layer(const shaders::LightMap& map, vec3 p_world)
 {
-    if (map.layout_kind != LIGHT_MAP_CUBE) return 0;
+    if (map.layout_kind == LIGHT_MAP_SINGLE) return 0;
+    if (map.layout_kind == LIGHT_MAP_CASCADES) {
+        const float depth = glm::dot(p_world - map.centre, map.axes[2]);
+        int layer = 0;
+        while (layer < 7 && depth > map.splits[layer / 4][layer % 4]) ++layer;
+        return layer;
+    }
     const vec3 d = (p_world - map.centre) * map.axes;
     int axis = 2;
     if (std::abs(d.y) >= std::abs(d[axis])) axis = 1;

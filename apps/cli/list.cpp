@@ -81,8 +81,8 @@ int list(const List& options)
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
         const std::string reason = !device ? why : info->unavailable ? info->unavailable(*device) : "";
         all.push_back({{"id", info->id}, {"title", info->title}, {"family", info->family}, {"output", shadow::output_name(info->output)},
-            {"lights", lights_text(info->lights)}, {"soft", info->soft}, {"exact", info->exact}, {"unavailable", reason},
-            {"parameters", parameters_json(*info)}});
+            {"lights", lights_text(info->lights)}, {"soft", info->soft}, {"textured", info->textured}, {"exact", info->exact},
+            {"unavailable", reason}, {"parameters", parameters_json(*info)}});
     }
     const std::string used = device ? device->info().name : "";
     if (options.common.json) {
@@ -95,11 +95,12 @@ int list(const List& options)
         fmt::print("device: {}, {}{}\n", name, std::string(d["driver"]),
             missing.empty() ? (name == used ? "  <- used" : "") : "  (not usable, lacks " + missing + ")");
     }
-    fmt::print("\n{:<22} {:<14} {:<26} {}\n", "technique", "output", "lights", "title");
+    fmt::print("\n{:<22} {:<21} {:<26} {}\n", "technique", "output", "lights", "title");
     for (const Json& t : all) {
         const std::string reason = t["unavailable"];
-        fmt::print("{:<22} {:<14} {:<26} {}{}\n", std::string(t["id"]), std::string(t["output"]), std::string(t["lights"]),
-            std::string(t["title"]), reason.empty() || !device ? "" : "\n    not here: " + reason);
+        const std::string output = std::string(t["output"]) + (t["textured"] ? " (coloured)" : "");
+        fmt::print("{:<22} {:<21} {:<26} {}{}\n", std::string(t["id"]), output, std::string(t["lights"]), std::string(t["title"]),
+            reason.empty() || !device ? "" : "\n    not here: " + reason);
     }
     return 0;
 }

@@ -22,10 +22,12 @@ double milliseconds(std::chrono::steady_clock::time_point begin)
 
 void measure_embree(Bench& out, const truth::Tracer& tracer, const Stage& stage)
 {
-    const truth::RawThroughput raw = truth::raw_packets(tracer, stage.view, stage.lights.front());
+    scene::Light hard = stage.lights.front();
+    hard.image = {}; // whose texels would ask for samples of their own
+    const truth::RawThroughput raw = truth::raw_packets(tracer, stage.view, hard);
     const auto begin = std::chrono::steady_clock::now();
     const truth::Primary primary = tracer.primary(stage.view);
-    tracer.visibility(stage.view, primary, stage.lights.front(), {.samples = 1});
+    tracer.visibility(stage.view, primary, hard, {.samples = 1});
     const double wall = milliseconds(begin);
     const double packets = raw.primary_ms + raw.shadow_ms;
     out.embree_packets_ms = out.embree_packets_ms == 0 ? packets : std::min(out.embree_packets_ms, packets);

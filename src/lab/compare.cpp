@@ -116,7 +116,7 @@ private:
         run.metrics["flip"] = metrics::flip(lit, truth_lit_, &flip_map);
         add_times(run, rendered);
         write(run.technique, lit, base::Encoding::srgb);
-        write(run.technique + ".visibility", rendered.images.front(), base::Encoding::linear);
+        write(run.technique + ".visibility", judged_channels(rendered.images.front(), 1), base::Encoding::linear);
         write(run.technique + ".error", heat_map, base::Encoding::linear);
     }
 

@@ -59,6 +59,10 @@ void add_times(Run&, const Rendered&); ///< passes, the technique's own time and
 /// The truth that judges this kind of output. Only for visibility and transmittance.
 truth::Quantity truth_quantity(const shadow::TechniqueInfo&);
 
+/// A technique's image as metrics take it: without the fourth channel of transmittance, which means nothing; and of one channel three times
+/// that one where truth has three, because the technique takes a light with an image as uniform.
+base::Picture judged_channels(const base::Picture& image, int truth_channels);
+
 /// What `score` needs from render().
 inline const std::set<std::string> scored_aovs = {"depth", "geometric_normal"};
 

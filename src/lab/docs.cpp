@@ -91,8 +91,8 @@ std::string overview_table()
 {
     std::string out = "| technique | family | lights | output | after |\n| --- | --- | --- | --- | --- |\n";
     for (const shadow::TechniqueInfo* info : shadow::techniques())
-        out += fmt::format("| [{}]({}/README.md) | {} | {} | {} | {} |\n", info->title, info->id, info->family,
-            fmt::join(claimed_kinds(*info), ", "), shadow::output_name(info->output), info->cite);
+        out += fmt::format("| [{}]({}/README.md) | {} | {} | {}{} | {} |\n", info->title, info->id, info->family,
+            fmt::join(claimed_kinds(*info), ", "), shadow::output_name(info->output), info->textured ? " (coloured)" : "", info->cite);
     return out;
 }
 

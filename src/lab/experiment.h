@@ -18,9 +18,16 @@ using Where = std::map<std::string, std::vector<std::string>>;
 
 /// Rows that agree in `rows` are one, their numbers the mean of theirs.
 struct TableSpec {
+    /// A row that was not measured here: a text for each of `rows`, a number or nothing for each of `columns`.
+    struct Published {
+        std::vector<std::string> texts;
+        std::vector<std::optional<double>> numbers;
+    };
     std::string title;
     std::vector<std::string> rows, columns;
     Where where;
+    std::vector<std::string> labels; ///< headings of `columns`
+    std::vector<Published> published; ///< below the measured rows
 };
 
 struct PlotSpec {
@@ -61,6 +68,7 @@ Experiment read_experiment(const std::filesystem::path&);
 
 /// Column names that a row has besides the axes.
 const std::vector<std::string>& identity_columns(); ///< texts: technique, scene, camera, light, size
-const std::vector<std::string>& number_columns(); ///< ms, ms_deviation, mib, ..., and every metric; "pass:NAME" is one too
+const std::vector<std::string>& number_columns(); ///< ms, ms_deviation, mib, ..., and every metric; "pass:NAME" is one too, and
+                                                  ///< "pass:NAME+START*", the sum of passes by name or by their names' beginning
 
 } // namespace gnomon::lab

@@ -37,7 +37,7 @@ public:
             if (filtered) out_.metrics.insert(out_.metrics.end(), {"filter_mae", "filter_leak", "filter_dark"});
         }
         for (const Json& table : json.value("tables", Json::array())) read_table(table);
-        if (out_.tables.empty()) out_.tables.push_back({"", varying(), default_columns(), {}});
+        if (out_.tables.empty()) out_.tables.push_back({"", varying(), default_columns(), {}, default_columns(), {}});
         std::set<std::string> files;
         for (const Json& plot : json.value("plots", Json::array())) {
             read_plot(plot);
@@ -123,12 +123,46 @@ private:
         return out;
     }
 
+    /// "name" or {"column": "name", "label": "heading"}.
+    void read_columns(const Json& json, TableSpec& table)
+    {
+        const Json all = json.is_array() ? json : Json::array({json});
+        for (const Json& entry : all) {
+            if (entry.is_object()) known_keys(entry, {"column", "label"}, out_.file);
+            const std::string name = strings(entry.is_object() ? entry.value("column", Json()) : entry, "columns").front();
+            table.columns.push_back(number(name, "columns"));
+            table.labels.push_back(entry.is_object() ? entry.value("label", name) : name);
+        }
+        if (table.columns.empty()) base::fail("columns names nothing");
+    }
+
+    void read_published(const Json& json, TableSpec& table)
+    {
+        known_keys(json, {"rows", "values"}, out_.file);
+        TableSpec::Published row;
+        row.texts = strings(json.value("rows", Json::array()), "rows of a published row");
+        const Json values = json.value("values", Json::array());
+        for (const Json& value : values) {
+            if (!value.is_number() && !value.is_null())
+                base::fail("the values of a published row are numbers or null, not {}", value.dump().substr(0, 60));
+            row.numbers.push_back(value.is_null() ? std::nullopt : std::optional<double>(value.get<double>()));
+        }
+        if (row.texts.size() != table.rows.size() || row.numbers.size() != table.columns.size())
+            base::fail("the published row {} has {} texts and {} values; this table's rows have {} and {}", json.dump().substr(0, 60),
+                row.texts.size(), row.numbers.size(), table.rows.size(), table.columns.size());
+        table.published.push_back(std::move(row));
+    }
+
     void read_table(const Json& json)
     {
-        known_keys(json, {"title", "rows", "columns", "where"}, out_.file);
-        out_.tables.push_back({json.value("title", ""), json.contains("rows") ? texts(json["rows"], "rows") : varying(),
-            json.contains("columns") ? numbers(json["columns"], "columns") : default_columns(),
-            where(json.value("where", Json::object()))});
+        known_keys(json, {"title", "rows", "columns", "where", "published"}, out_.file);
+        TableSpec table;
+        table.title = json.value("title", "");
+        table.rows = json.contains("rows") ? texts(json["rows"], "rows") : varying();
+        read_columns(json.contains("columns") ? json["columns"] : Json(default_columns()), table);
+        table.where = where(json.value("where", Json::object()));
+        for (const Json& row : json.value("published", Json::array())) read_published(row, table);
+        out_.tables.push_back(std::move(table));
     }
 
     static std::string file_name(const std::string& text)

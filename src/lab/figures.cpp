@@ -75,7 +75,7 @@ public:
         const Rendered rendered = render(
             device_, *open.scene, open.stage, parse_choice(panel.technique), {.lit = panel.show == Show::lit, .aovs = scored_aovs});
         if (panel.show == Show::lit) return write(display(rendered.radiance, open.stage), panel, file, base::Encoding::srgb);
-        if (panel.show == Show::visibility) return write(rendered.images.front(), panel, file, base::Encoding::linear);
+        if (panel.show == Show::visibility) return write(judged_channels(rendered.images.front(), 1), panel, file, base::Encoding::linear);
         write(error_of(open, panel, rendered), panel, file, base::Encoding::linear);
     }
 
@@ -117,7 +117,9 @@ private:
         const base::Picture no_variance;
         std::vector<uint8_t> mask(rays.primary.primitive.size());
         for (size_t i = 0; i < mask.size(); ++i) mask[i] = rays.primary.primitive[i] != truth::no_primitive;
-        return top(metrics::signed_heat_map({rendered.images.front(), other, no_variance, mask}, 1.0f / panel.gain), open.stage.view.size);
+        return top(metrics::signed_heat_map(
+                       {judged_channels(rendered.images.front(), other.channels), other, no_variance, mask}, 1.0f / panel.gain),
+            open.stage.view.size);
     }
 
     static void write(const base::Picture& picture, const FigurePanel& panel, const fs::path& file, base::Encoding encoding)

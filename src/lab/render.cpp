@@ -50,7 +50,7 @@ public:
             const std::string reason = refusal(*choice.info, device, light);
             if (!reason.empty()) base::fail("{}", reason);
             techniques_.push_back(choice.info->create(device));
-            targets_.images.push_back(make_image(device, output_format(choice.info->output), stage.view.size, "technique's image"));
+            targets_.images.push_back(make_image(device, output_format(*choice.info, light), stage.view.size, "technique's image"));
         }
         targets_.primitive = make_image(device, VK_FORMAT_R32_UINT, stage.view.size, "primitive copy");
         if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");

@@ -56,19 +56,11 @@ std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& rast
     return mask;
 }
 
-/// Without the fourth channel of transmittance, which means nothing.
-base::Picture scored_channels(const base::Picture& image)
-{
-    if (image.channels != 4) return image;
-    base::Picture out(image.size, 3);
-    for (size_t i = 0; i < image.size.area(); ++i) std::copy_n(&image.values[i * 4], 3, &out.values[i * 3]);
-    return out;
-}
-
-void score_filter(const FilterReference& filter, const base::Picture& test, const std::vector<uint8_t>& mask, Run& out)
+void score_filter(const FilterReference& filter, base::Picture test, const std::vector<uint8_t>& mask, Run& out)
 {
     out.reference_refused = filter.refused;
     if (filter.image.empty()) return;
+    test = judged_channels(test, filter.image.channels);
     if (filter.image.channels != test.channels) {
         out.reference_refused = fmt::format("{} writes another kind of image than {}", filter.choice, out.technique);
         return;
@@ -99,12 +91,22 @@ truth::Quantity truth_quantity(const shadow::TechniqueInfo& info)
     return info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
 }
 
+base::Picture judged_channels(const base::Picture& image, int truth_channels)
+{
+    if (image.channels != 4 && image.channels >= truth_channels) return image;
+    base::Picture out(image.size, 3);
+    for (size_t i = 0; i < image.size.area(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            out.values[i * 3 + c] = image.values[i * size_t(image.channels) + std::min(c, size_t(image.channels) - 1)];
+    return out;
+}
+
 FilterReference filter_reference(gpu::Device& device, shadow::SceneGpu& scene, const Stage& stage, const std::string& choice)
 {
     const Choice parsed = parse_choice(choice);
     FilterReference out{choice, {}, shadow::refusal(*parsed.info, device, stage.lights.front())};
     if (!out.refused.empty()) return out;
-    out.image = scored_channels(render(device, scene, stage, parsed, {.lit = false}).images.front());
+    out.image = judged_channels(render(device, scene, stage, parsed, {.lit = false}).images.front(), 1);
     return out;
 }
 
@@ -112,7 +114,7 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
     const ScoreOptions& options)
 {
     const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
-    const base::Picture test = scored_channels(rendered.images.front());
+    const base::Picture test = judged_channels(rendered.images.front(), truth.visibility.mean.channels);
     const bool hard = !light.soft();
     const metrics::Comparison comparison{test, truth.visibility.mean, truth.visibility.variance, mask, hard};
     out.metrics = metrics::measure(comparison);
@@ -129,7 +131,7 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
         }
         out.metrics["wrong_outside_band"] = double(outside) / double(out.scored_pixels);
     }
-    if (options.filter) score_filter(*options.filter, test, mask, out);
+    if (options.filter) score_filter(*options.filter, judged_channels(rendered.images.front(), 1), mask, out);
     if (options.heat_map) *options.heat_map = metrics::signed_heat_map(comparison);
 }
 

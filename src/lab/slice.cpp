@@ -102,7 +102,7 @@ base::Picture slice_image(gpu::Device& device, shadow::SceneGpu& scene, const St
     const std::string reason = unmeasurable(choice, device, light);
     if (!reason.empty()) base::fail("{}", reason);
     gpu::Image image = device.image(
-        {shadow::output_format(choice.info->output), slice.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "technique's image"});
+        {shadow::output_format(*choice.info, light), slice.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "technique's image"});
     const std::unique_ptr<shadow::Technique> technique = choice.info->create(device);
     gpu::PassList passes(device);
     const shadow::GBuffer g = draw_receivers(passes, scene, stage, slice);
@@ -110,11 +110,7 @@ base::Picture slice_image(gpu::Device& device, shadow::SceneGpu& scene, const St
     technique->record(passes, shadow::Frame{stage.scene, slice.view, light, scene, g, passes.import(image), 0}, choice.params.bytes());
     passes.group("");
     device.submit(std::move(passes));
-    base::Picture out = device.read_back(image);
-    if (out.channels != 4) return out;
-    base::Picture rgb(out.size, 3); // the fourth channel of transmittance means nothing
-    for (size_t i = 0; i < out.size.area(); ++i) std::copy_n(&out.values[i * 4], 3, &rgb.values[i * 3]);
-    return rgb;
+    return judged_channels(device.read_back(image), 1);
 }
 
 base::Picture slice_truth(const Stage& stage, const Slice& slice, truth::Quantity quantity, int samples)

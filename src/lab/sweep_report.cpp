@@ -72,7 +72,7 @@ std::string table(const TableSpec& spec, const std::vector<Row>& rows)
     for (const RowGroup& group : groups) most = std::max(most, group.rows.size());
     std::string out = spec.title.empty() ? "" : "### " + spec.title + "\n\n";
     if (most > 1) out += fmt::format("Each row is the mean of up to {} runs.\n\n", most);
-    out += fmt::format("| {} | {} |\n|", fmt::join(spec.rows, " | "), fmt::join(spec.columns, " | "));
+    out += fmt::format("| {} | {} |\n|", fmt::join(spec.rows, " | "), fmt::join(spec.labels, " | "));
     for (size_t i = 0; i < spec.rows.size(); ++i) out += " --- |";
     for (size_t i = 0; i < spec.columns.size(); ++i) out += " ---: |";
     out += "\n";
@@ -80,6 +80,12 @@ std::string table(const TableSpec& spec, const std::vector<Row>& rows)
         out += "|";
         for (const std::string& text : group.key) out += " " + escaped(text) + " |";
         for (const std::string& column : spec.columns) out += " " + table_cell(group, column) + " |";
+        out += "\n";
+    }
+    for (const TableSpec::Published& row : spec.published) {
+        out += "|";
+        for (const std::string& text : row.texts) out += " " + escaped(text) + " |";
+        for (const std::optional<double>& value : row.numbers) out += " " + (value ? number_text(*value) : "-") + " |";
         out += "\n";
     }
     return out + "\n";

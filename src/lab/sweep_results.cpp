@@ -42,11 +42,29 @@ std::optional<double> number_at(const Json& object, const std::string& key)
     return found->get<double>();
 }
 
-std::optional<double> pass_ms(const Json& line, const std::string& name)
+/// Whether `patterns`, joined by '+', name a pass: each is its name, or ends in '*' and begins it.
+bool names_pass(std::string_view patterns, std::string_view pass)
 {
-    for (const Json& pass : line.at("passes"))
-        if (pass.is_object() && pass.value("name", Json()) == name) return number_at(pass, "ms");
-    return {};
+    for (size_t from = 0; from <= patterns.size();) {
+        const size_t to = std::min(patterns.find('+', from), patterns.size());
+        const std::string_view one = patterns.substr(from, to - from);
+        if (one == pass || (!one.empty() && one.back() == '*' && pass.substr(0, one.size() - 1) == one.substr(0, one.size() - 1)))
+            return true;
+        from = to + 1;
+    }
+    return false;
+}
+
+/// Of the passes whose names begin with `owner`, the sum of those that `patterns` names; nothing where there are none.
+std::optional<double> pass_ms(const Json& line, const std::string& owner, std::string_view patterns)
+{
+    std::optional<double> sum;
+    for (const Json& pass : line.at("passes")) {
+        const std::string name = pass.is_object() ? pass.value("name", "") : "";
+        if (name.rfind(owner, 0) != 0 || !names_pass(patterns, std::string_view(name).substr(owner.size()))) continue;
+        if (const std::optional<double> ms = number_at(pass, "ms")) sum = sum.value_or(0.0) + *ms;
+    }
+    return sum;
 }
 
 } // namespace
@@ -116,8 +134,8 @@ std::optional<double> Row::number(const std::string& column) const
     if (line->contains("skipped")) return {};
     if (column == "ms") return number_at(*line, "technique_ms");
     if (column == "ms_deviation") return number_at(*line, "technique_deviation");
-    if (column == "gbuffer_ms") return pass_ms(*line, "gbuffer");
-    if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/" + column.substr(5));
+    if (column == "gbuffer_ms") return pass_ms(*line, "", "gbuffer");
+    if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/", column.substr(5));
     if (column == "scored_pixels" || column == "excluded_pixels") return number_at(*line, column);
     if (column != "mib") return number_at(line->at("metrics"), column);
     const std::optional<double> bytes = number_at(*line, "bytes");

@@ -8,7 +8,8 @@ namespace gnomon::metrics {
 /// From here on a pixel is fully lit; one minus this, fully dark.
 inline constexpr float fully_lit = 0.999f, fully_dark = 0.001f;
 
-/// A comparison brought to one channel: what every metric reads.
+/// A comparison brought to one channel: what most metrics read. Sizes of errors are taken channel by channel, so that those of opposite
+/// sign do not cancel.
 class Grey {
 public:
     explicit Grey(const Comparison&);
@@ -18,6 +19,11 @@ public:
     /// Not finite: the farthest end from truth.
     float test(size_t pixel) const;
     float difference(size_t pixel) const { return test(pixel) - truth(pixel); }
+    /// The mean of |test - truth| over the channels, of its square, and the largest.
+    struct Sizes {
+        double mean = 0.0, square = 0.0, largest = 0.0;
+    };
+    Sizes error(size_t pixel) const;
     /// 0 where none is given.
     float variance(size_t pixel) const { return variance_.empty() ? 0.0f : mean(variance_, pixel); }
 
@@ -44,6 +50,10 @@ double wrong_pixels(const Comparison&);
 double acne(const Comparison&);
 double leak(const Comparison&);
 double wrong_outside_band(const Comparison&);
+// penumbra.cpp
+double penumbra_width(const Comparison&);
+double banding(const Comparison&);
+double grain(const Comparison&);
 // edges.cpp
 double edge_displacement(const Comparison&);
 

@@ -32,18 +32,18 @@ double difference(const Grey& g, size_t i) { return double(g.difference(i)); }
 
 double mae(const Comparison& c)
 {
-    return mean_where(c, every, [](const Grey& g, size_t i) { return std::abs(difference(g, i)); });
+    return mean_where(c, every, [](const Grey& g, size_t i) { return g.error(i).mean; });
 }
 
 double rms(const Comparison& c)
 {
-    return std::sqrt(mean_where(c, every, [](const Grey& g, size_t i) { return difference(g, i) * difference(g, i); }));
+    return std::sqrt(mean_where(c, every, [](const Grey& g, size_t i) { return g.error(i).square; }));
 }
 
 double max_error(const Comparison& c)
 {
     double largest = 0.0;
-    mean_where(c, every, [&](const Grey& g, size_t i) { return largest = std::max(largest, std::abs(difference(g, i))); });
+    mean_where(c, every, [&](const Grey& g, size_t i) { return largest = std::max(largest, g.error(i).largest); });
     return largest;
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "metrics/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::metrics {
@@ -33,6 +34,18 @@ float Grey::test(size_t pixel) const
     return std::isfinite(value) ? value : truth(pixel) > 0.5f ? 0.0f : 1.0f;
 }
 
+Grey::Sizes Grey::error(size_t pixel) const
+{
+    const auto channels = size_t(test_.channels);
+    Sizes out;
+    for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
+        const float t = truth_.values[i], value = std::isfinite(test_.values[i]) ? test_.values[i] : t > 0.5f ? 0.0f : 1.0f;
+        const double e = std::abs(double(value - t));
+        out.mean += e / double(channels), out.square += e * e / double(channels), out.largest = std::max(out.largest, e);
+    }
+    return out;
+}
+
 const std::vector<Metric>& metrics()
 {
     static const std::vector<Metric> all{
@@ -47,6 +60,9 @@ const std::vector<Metric>& metrics()
         {"bias", "visibility", "mean of test - truth: above 0 is too light", true, true, bias},
         {"bias_penumbra", "visibility", "bias within the true penumbra: its softness is wrong", false, true, bias_penumbra},
         {"bias_outside", "visibility", "bias outside of the true penumbra", false, true, bias_outside},
+        {"penumbra_width", "fraction", "how far the penumbrae's widths are from the true ones", false, true, penumbra_width},
+        {"banding", "visibility", "bends and steps of the error within the true penumbra", false, true, banding},
+        {"grain", "visibility", "what single pixels stray from the error around them, within the true penumbra", false, true, grain},
         {"noise", "visibility", "standard error of the truth: smaller differences say nothing", false, true, noise},
     };
     return all;

@@ -27,8 +27,8 @@ struct Metric {
     bool hard, soft; ///< for which lights it is reported
     double (*measure)(const Comparison&);
 };
-/// All numbers are over scored pixels (none scored: 0); of three channels the mean is taken. A value of `test` that is not finite
-/// counts as the farthest one from truth.
+/// All numbers are over scored pixels (none scored: 0); of three channels the mean is taken, in mae, rms and max (there the largest) that
+/// of the channels' own errors. A value of `test` that is not finite counts as the farthest one from truth.
 ///
 /// | id | light | meaning |
 /// | wrong_pixels | hard | fraction with |test - truth| > 0.5; a filtered test of exactly 0.5 is right either way |
@@ -38,7 +38,10 @@ struct Metric {
 /// | edge_displacement | hard | pixels from each edge of one picture to the nearest of the other, at most 32; mean over both ways |
 /// | mae, rms, max, bias | both | of test - truth |
 /// | bias_penumbra, bias_outside | soft | bias where truth is inside (0.001, 0.999), and elsewhere |
-/// | noise | soft | root of the mean variance of truth: differences below it say nothing |
+/// | penumbra_width | soft | sum of |test - truth| / sum of truth, of widths from 10 % to 90 % along rows and columns; none found: all of
+/// it | | banding | soft | within the true penumbra: mean |second difference| along rows and columns of the error's 5x5 median | | grain |
+/// soft | there: mean difference of the error to that median | | noise | soft | root of the mean variance of truth: differences below it
+/// say nothing |
 const std::vector<Metric>& metrics();
 
 /// All metrics that apply.

@@ -28,12 +28,14 @@ public:
     JsonReader at(std::string_view key) const; ///< Error where it is missing
     JsonReader at(size_t index) const;
     size_t array_size() const; ///< Error unless an array
+    bool is_text() const { return value_.is_string(); }
     std::string text() const;
     bool truth() const;
     double number(double low, double high) const; ///< Error unless a finite number in [low, high]
     float real(float low, float high) const { return float(number(double(low), double(high))); }
     vec3 vector(float low = -1e9f, float high = 1e9f) const;
     vec3 direction() const; ///< unit; Error at zero length
+    std::string place() const { return file_ + ", " + pointer_; }
     [[noreturn]] void fail(const std::string& what) const;
 
 private:

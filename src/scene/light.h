@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/light_image.h"
 #include "scene/math.h"
 
 #include <cstdint>
@@ -53,8 +54,10 @@ struct Light {
     vec3 color{1, 1, 1}; ///< linear
     std::optional<float> intensity;
     LightShape shape;
+    LightImage image{}; ///< rectangles only: what they emit over their area, times color
     LightKind kind() const { return LightKind(shape.index()); }
     bool soft() const; ///< has an area or a cone of its own
+    bool textured() const { return kind() == LightKind::rect && !image.empty(); }
 };
 
 std::string_view kind_name(LightKind); ///< "directional", "spot", "point", "rect", "disk"
@@ -79,6 +82,7 @@ bool reaches(const Light&, vec3 p_world);
 ///                                                where the light stands, so elevation=90 shines straight down
 ///   spot,position=1/2/3,target=0/0/0,cone=60,radius=0.1      `cone` = full outer angle, degrees; `inner` likewise
 ///   point,position=0/3/0,radius=0.2    rect,position=..,target=..,width=1,height=0.5    disk,position=..,target=..,radius=0.5
+///   rect,...,image=window      what it emits over its area: load_light_image
 /// Common keys: color=r/g/b or #rrggbb (sRGB), intensity, name. Left-out positions are fitted to `bounds`.
 /// Throws Error listing the near names or the allowed range.
 Light parse_light(std::string_view text, const std::vector<Light>& known, const Bounds& bounds);

@@ -61,6 +61,7 @@ bool common_key(Draft& draft, const Pairs::value_type& pair)
 
 [[noreturn]] void no_such_key(const Draft& draft, std::string_view key, std::vector<std::string> keys)
 {
+    if (key == "image") base::fail("light '{}': only rect lights have an image, not {} lights", draft.text, kind_name(draft.light.kind()));
     keys.insert(keys.end(), {"color", "intensity", "name"});
     unknown_key(draft.place(key), keys);
 }
@@ -149,8 +150,10 @@ void apply(Draft& draft, RectLight& light, const Pairs& pairs)
             width = draft.number(pair, smallest_size, largest_size, "m");
         else if (pair.first == "height")
             height = draft.number(pair, smallest_size, largest_size, "m");
+        else if (pair.first == "image")
+            draft.light.image = load_light_image(pair.second);
         else
-            no_such_key(draft, pair.first, {"position", "target", "width", "height"});
+            no_such_key(draft, pair.first, {"position", "target", "width", "height", "image"});
     }
     if (draft.known && !draft.aimed) {
         light.half_u = 0.5f * width * glm::normalize(light.half_u);

@@ -19,6 +19,7 @@ float radians_at(const JsonReader& object, const char* key, float low, float hig
 
 void check_light_keys(const JsonReader& r, Keys keys)
 {
+    if (r.has("image") && r.at("type").text() != "rect") r.at("image").fail("is for rect lights only");
     keys.insert(keys.end(), {"name", "type", "color", "intensity"});
     r.check_keys(keys);
 }
@@ -49,7 +50,7 @@ SpotLight read_spot(const JsonReader& r)
 
 RectLight read_rect(const JsonReader& r)
 {
-    check_light_keys(r, {"position", "target", "direction", "width", "height", "width_axis"});
+    check_light_keys(r, {"position", "target", "direction", "width", "height", "width_axis", "image"});
     RectLight light;
     light.centre = r.at("position").vector();
     const vec3 normal = aim_of(r, light.centre);
@@ -64,6 +65,21 @@ RectLight read_rect(const JsonReader& r)
     light.half_u = 0.5f * r.at("width").real(smallest_size, largest_size) * u;
     light.half_v = 0.5f * r.at("height").real(smallest_size, largest_size) * glm::normalize(glm::cross(normal, u));
     return light;
+}
+
+/// A name, or rows of texels, each [red, green, blue].
+LightImage read_image(const JsonReader& r, const std::filesystem::path& folder)
+{
+    if (r.is_text()) return load_light_image(r.text(), folder);
+    const int height = int(r.array_size()), width = height > 0 ? int(r.at(size_t(0)).array_size()) : 0;
+    if (width < 1) r.fail("has no texels; give rows of [red, green, blue], or the name of an image");
+    std::vector<vec3> emitted;
+    for (int y = 0; y < height; ++y) {
+        const JsonReader row = r.at(size_t(y));
+        if (int(row.array_size()) != width) row.fail(fmt::format("has {} texels instead of {}", row.array_size(), width));
+        for (int x = 0; x < width; ++x) emitted.push_back(row.at(size_t(x)).vector(0.0f));
+    }
+    return make_light_image(width, height, emitted, r.place());
 }
 
 LightShape read_shape(const JsonReader& r, const std::string& type)
@@ -88,13 +104,14 @@ LightShape read_shape(const JsonReader& r, const std::string& type)
     r.at("type").fail(base::unknown_name("type", type, Keys{"directional", "spot", "point", "rect", "disk"}));
 }
 
-Light read_light(const JsonReader& r, size_t index)
+Light read_light(const JsonReader& r, size_t index, const std::filesystem::path& folder)
 {
     Light light;
     light.shape = read_shape(r, r.at("type").text());
     light.name = r.has("name") ? r.at("name").text() : "light " + std::to_string(index + 1);
     if (r.has("color")) light.color = r.at("color").vector(0.0f);
     if (r.has("intensity")) light.intensity = r.at("intensity").real(0.0f, 1e12f);
+    if (r.has("image")) light.image = read_image(r.at("image"), folder);
     return light;
 }
 
@@ -160,7 +177,7 @@ Scene load_scene_json(const std::filesystem::path& path, const LoadOptions& opti
     scene.name = path.stem().string();
     if (file.has("tuning")) scene.tuning = file.at("tuning").truth();
     merge(scene.cameras, file, "cameras", read_camera);
-    merge(scene.lights, file, "lights", read_light);
+    merge(scene.lights, file, "lights", [&](const JsonReader& r, size_t i) { return read_light(r, i, path.parent_path()); });
     return scene;
 }
 

@@ -50,6 +50,17 @@ struct ShapeWriter {
     }
 };
 
+Json image_json(const LightImage& image)
+{
+    Json rows = Json::array();
+    for (int y = 0; y < image.height; ++y) {
+        Json row = Json::array();
+        for (int x = 0; x < image.width; ++x) row.push_back(vector(image.tint * image.texels[size_t(y) * size_t(image.width) + size_t(x)]));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 Json light_json(const Light& light)
 {
     Json json;
@@ -58,6 +69,7 @@ Json light_json(const Light& light)
     std::visit(ShapeWriter{json}, light.shape);
     if (light.color != vec3(1.0f)) json["color"] = vector(light.color);
     if (light.intensity) json["intensity"] = number(*light.intensity);
+    if (light.textured()) json["image"] = image_json(light.image);
     return json;
 }
 

@@ -52,6 +52,7 @@ shaders::Light light_constants(const scene::Light& light, const Bounds& bounds)
     shaders::Light out{};
     out.kind = uint32_t(light.kind());
     out.radiance = light.color * effective_intensity(light, bounds);
+    if (light.textured()) out.radiance *= light.image.tint;
     out.cos_inner = 1.0f, out.cos_outer = -1.0f;
     std::visit(Overload{[&](const scene::DirectionalLight& l) { out.direction = l.direction, out.radius = l.angular_radius; },
                    [&](const scene::SpotLight& l) {

@@ -12,7 +12,11 @@ std::string_view output_name(Output output)
     return names[size_t(output)];
 }
 
-VkFormat output_format(Output output) { return output == Output::visibility ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT; }
+VkFormat output_format(const TechniqueInfo& info, const scene::Light& light)
+{
+    const bool grey = info.output == Output::visibility && !(info.textured && light.textured());
+    return grey ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
 
 const TechniqueInfo& technique(std::string_view id)
 {

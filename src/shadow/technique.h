@@ -27,7 +27,6 @@ enum class Output : uint8_t {
     radiance, ///< rgba32f: indirect light
 };
 std::string_view output_name(Output);
-VkFormat output_format(Output);
 
 /// Light kinds as bits.
 constexpr unsigned light_bit(scene::LightKind kind) { return 1u << unsigned(kind); }
@@ -44,7 +43,7 @@ struct Frame {
     const scene::Light& light;
     SceneGpu& resources;
     GBuffer gbuffer; ///< already drawn
-    gpu::ImageId output; ///< of the technique's kind, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
+    gpu::ImageId output; ///< output_format, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
                          ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
 };
@@ -78,12 +77,17 @@ struct TechniqueInfo {
     Output output = Output::visibility;
     unsigned lights = all_lights; ///< kinds it claims; conformance tests hold it to that
     bool soft = false; ///< computes penumbrae of lights with an area; false: treats every light as its centre
+    bool textured = false; ///< of a light with an image it writes the visibility in each channel, in the format of transmittance; false:
+                           ///< takes the light as uniform
     bool exact = false; ///< differs from truth only in a stated band at true edges
     bool temporal = false; ///< keeps state between frames: the lab warms it up and tests it from a reset
     ParamTable (*params)() = no_params;
     std::string (*unavailable)(const gpu::Device&) = nullptr; ///< "" or the reason, a sentence
     std::unique_ptr<Technique> (*create)(gpu::Device&) = nullptr;
 };
+
+/// Of the image that a technique writes for a light.
+VkFormat output_format(const TechniqueInfo&, const scene::Light&);
 
 /// All techniques, sorted by id. Generated from the folders.
 std::span<const TechniqueInfo* const> techniques();

@@ -51,6 +51,7 @@ void add_light(base::Hasher& h, const scene::Light& light)
 {
     h.value(light.shape.index());
     std::visit([&](const auto& shape) { h.value(shape); }, light.shape);
+    if (light.textured()) h.value(light.image.width).value(light.image.height).array(light.image.texels);
 }
 
 std::string checksum(std::span<const std::byte> data) { return base::Hasher().bytes(data).hex(); }
@@ -81,14 +82,14 @@ fs::path entry(const fs::path& folder, const std::string& key) { return folder /
 std::string cache_key(const scene::Scene& s, const scene::View& v, const scene::Light& l, const Settings& settings, Quantity quantity)
 {
     base::Hasher h;
-    h.value(version).value(quantity).value(l.soft() ? Strata(settings.samples, 0).side : 1).value(l.soft() ? settings.seed : 0);
+    h.value(version).value(quantity).value(l.soft() ? Strata(settings.samples, 0).columns : 1).value(l.soft() ? settings.seed : 0);
     add_scene(h, s);
     add_view(h, v);
     add_light(h, l);
     return h.hex();
 }
 
-std::optional<Reference> load(const fs::path& folder, const std::string& key, base::Size size, Quantity quantity)
+std::optional<Reference> load(const fs::path& folder, const std::string& key, base::Size size, int channels)
 try {
     const fs::path path = entry(folder, key);
     std::error_code error;
@@ -99,7 +100,6 @@ try {
     if (file.size() < sizeof(Header)) return {};
     std::memcpy(&header, file.data(), sizeof(Header));
     const std::span payload = std::span(file).subspan(sizeof(Header));
-    const int channels = quantity == Quantity::visibility ? 1 : 3;
     const size_t pixel_bytes = sizeof(float) * (1 + 3 + 3 + 1 + 2 * size_t(channels));
     if (std::memcmp(header.magic, expected.magic, sizeof(header.magic)) != 0 || header.format != version || header.width != size.width
         || header.height != size.height || header.channels != channels || payload.size() != size.area() * pixel_bytes
@@ -172,7 +172,7 @@ Reference reference(const scene::Scene& s, const scene::View& view, const scene:
 {
     const fs::path used = folder.empty() ? base::cache_folder() / "truth" : folder;
     const std::string key = cache_key(s, view, light, settings, quantity);
-    if (std::optional<Reference> found = load(used, key, view.size, quantity)) return std::move(*found);
+    if (std::optional<Reference> found = load(used, key, view.size, channels(quantity, light))) return std::move(*found);
 
     const Tracer tracer(s);
     Reference r;

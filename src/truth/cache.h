@@ -12,7 +12,7 @@ namespace gnomon::truth {
 std::string cache_key(const scene::Scene&, const scene::View&, const scene::Light&, const Settings&, Quantity);
 
 /// Empty where there is no whole, undamaged entry for a picture of this size. Marks a found one as used.
-std::optional<Reference> load(const std::filesystem::path& folder, const std::string& key, base::Size, Quantity);
+std::optional<Reference> load(const std::filesystem::path& folder, const std::string& key, base::Size, int channels);
 void store(const std::filesystem::path& folder, const std::string& key, const Reference&);
 
 /// Deletes the entries that were not used for longest until the folder holds at most `limit` bytes of them.

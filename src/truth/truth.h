@@ -31,8 +31,9 @@ struct Settings {
 /// Fraction of the light that reaches each visible point. Background pixels are 1.
 /// A sample counts as visible when (a) the light sends light there (scene::reaches; else the pixel's mean is 0), (b) it is on the
 /// eye's side of the receiver's geometric plane, and (c) the open segment meets no opaque or mask-kept triangle, from either side.
+/// Where the light has an image, each channel's samples weigh what the light emits there in that channel.
 struct Visibility {
-    base::Picture mean; ///< 1 channel (visibility) or 3 (transmittance)
+    base::Picture mean; ///< 1 channel (visibility), or 3 (transmittance, or a light with an image)
     /// Of the mean, same channels; 0 for hard lights. One sample a stratum gives no variance within it, so neighbouring strata
     /// are paired: never too small in expectation, too large where visibility changes between the two. Where all samples agree it
     /// is 0, although a blocker smaller than a stratum may have been missed: the true error there is below 1 / samples.
@@ -56,8 +57,12 @@ public:
     Primary primary(const scene::View&, int threads = 0) const;
     Visibility visibility(const scene::View&, const Primary&, const scene::Light&, const Settings&) const;
     Visibility transmittance(const scene::View&, const Primary&, const scene::Light&, const Settings&) const;
-    /// Visibility of single points with given normals (for tests and for edge bands): one value each.
+    /// Visibility of single points with given normals (for tests and for edge bands): one value each; a light's image is left out of
+    /// account.
     std::vector<double> visibility_at(
+        const std::vector<vec3>& points, const std::vector<vec3>& normals, const scene::Light&, const Settings&) const;
+    /// The same in each channel of a light with an image.
+    std::vector<glm::dvec3> colored_visibility_at(
         const std::vector<vec3>& points, const std::vector<vec3>& normals, const scene::Light&, const Settings&) const;
     double build_ms() const;
 
@@ -76,6 +81,7 @@ struct Reference {
     double trace_ms = 0; ///< primary + shadow rays, without the build; 0 when from the cache
 };
 enum class Quantity { visibility, transmittance };
+int channels(Quantity, const scene::Light&); ///< of Visibility's pictures
 Reference reference(const scene::Scene&, const scene::View&, const scene::Light&, const Settings&, Quantity = Quantity::visibility,
     const std::filesystem::path& folder = {});
 

@@ -16,7 +16,7 @@ void main()
 {
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
-    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, r.p_world);
+    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
     const MapPoint m = project(layer, r.p_world + r.n_geometric * (c.params.normal_offset * texel));

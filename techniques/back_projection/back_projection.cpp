@@ -3,6 +3,7 @@
 #include "techniques/back_projection/back_projection.shared.h"
 
 #include "gpu/device.h"
+#include "shadow/parts/light_image.h"
 #include "shadow/parts/light_samples.h"
 #include "shadow/parts/pyramid.h"
 #include "shadow/parts/soft_map.h"
@@ -45,16 +46,19 @@ class BackProjection final : public TechniqueWith<Params> {
         const parts::SoftMap map = parts::draw_soft_map(passes, frame, params.soft);
         std::vector<gpu::ImageId> layers{map.map.depth};
         while (int(layers.size()) < params.layers)
-            layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, map.settings, layers.back()));
+            layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, parts::soft_map_settings(params.soft), layers.back()));
         const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, layers);
         constexpr uint32_t words[] = {0, 2, 8};
-        const gpu::SpecConstant spec[]
-            = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)}, {3, uint32_t(params.levels)}};
+        const bool textured = frame.light.textured();
+        const gpu::SpecConstant spec[] = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)},
+            {3, textured ? 1u : 0u}, {4, uint32_t(params.levels)}};
         const bool disk = frame.light.kind() != scene::LightKind::rect;
+        const int count = params.accumulate == 2 ? 256 : 64;
+        const gpu::BufferId table = passes.import(samples(passes.device(), count, disk));
         parts::resolve_soft(passes, frame, "techniques/back_projection/back_projection_resolve.frag", spec,
             ResolveConstants{map.constants, params},
-            {gpu::Binding(pyramid, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
-                {passes.import(samples(passes.device(), params.accumulate == 2 ? 256 : 64, disk)), gpu::Use::load}});
+            {gpu::Binding(pyramid, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {table, gpu::Use::load},
+                {textured ? passes.import(image(passes.device(), frame.light.image, count)) : table, gpu::Use::load}});
     }
 
     gpu::Buffer& samples(gpu::Device& device, int count, bool disk)
@@ -68,7 +72,19 @@ class BackProjection final : public TechniqueWith<Params> {
         return found->second;
     }
 
+    gpu::Buffer& image(gpu::Device& device, const scene::LightImage& image, int count)
+    {
+        const auto [found, fresh] = images_.try_emplace(count);
+        if (fresh) {
+            const auto table = parts::light_image_table(image, parts::light_samples(count, false).cells);
+            found->second = device.buffer({table.size() * sizeof(vec4), 0, gpu::Memory::device, "light image"});
+            device.upload(found->second, std::as_bytes(std::span(table)));
+        }
+        return found->second;
+    }
+
     std::map<std::pair<int, bool>, gpu::Buffer> samples_;
+    std::map<int, gpu::Buffer> images_; ///< of the one light, by the number of samples
 };
 
 } // namespace
@@ -84,6 +100,7 @@ const gnomon::shadow::TechniqueInfo technique_back_projection = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::all_lights,
     .soft = true,
+    .textured = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::back_projection::describe); },
     .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::back_projection::BackProjection>();

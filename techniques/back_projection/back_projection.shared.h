@@ -6,7 +6,7 @@
 TECHNIQUE_BEGIN(back_projection)
 
 struct Params {
-    SoftParams soft DEFAULT((SoftParams{1024, 1, 0.25f}));
+    SoftParams soft DEFAULT((SoftParams{1024, {}, 0.25f}));
     int layers DEFAULT(2);
     int occluders DEFAULT(0);
     int accumulate DEFAULT(2);

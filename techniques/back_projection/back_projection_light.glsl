@@ -12,6 +12,8 @@ struct LightFrame {
     float shear, bend, turn;
     bool turned;
     vec2 reach; // half the extent of the light's outline along the map's axes
+    vec2 sign; // of a rectangle: x and y times this run along half_u and half_v,
+    bool exchanged; // or along half_v and half_u
 };
 
 #define LEAST_WIDTH 1e-12
@@ -20,7 +22,7 @@ struct LightFrame {
 LightFrame ellipse_frame(vec3 q)
 {
     const float a = max(sqrt(q.x), LEAST_WIDTH), b = q.y / a, c = max(sqrt(max(q.z - b * b, 0.0)), LEAST_WIDTH);
-    return LightFrame(1.0 / vec2(a, c), b / c, 0.0, 0.0, false, sqrt(q.xz));
+    return LightFrame(1.0 / vec2(a, c), b / c, 0.0, 0.0, false, sqrt(q.xz), vec2(1.0), false);
 }
 
 // The parallelogram spanned by +-u and +-v, one of which lies along an axis of the map: cubes stand as their rectangles do.
@@ -30,10 +32,12 @@ LightFrame parallelogram_frame(vec2 u, vec2 v)
     f.reach = abs(u) + abs(v);
     f.turned = min(abs(u.y), abs(v.y)) < min(abs(u.x), abs(v.x));
     if (f.turned) u = u.yx, v = v.yx;
-    if (abs(u.x) < abs(v.x)) {
+    f.exchanged = abs(u.x) < abs(v.x);
+    if (f.exchanged) {
         const vec2 w = u;
         u = v, v = w;
     }
+    f.sign = vec2(u.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0);
     if (u.x < 0.0) u = -u;
     const vec2 width = max(vec2(u.x, abs(v.y)), LEAST_WIDTH);
     f.scale = 1.0 / width;
@@ -61,7 +65,16 @@ LightFrame upright_frame(vec2 n, float half_depth, float half_width, vec2 t, flo
     const float rest = max(1.0 - part, 1e-3); // no receiver sees what is further along the depth than itself
     f.reach = vec2(slope * half_depth, half_width + part * d * abs(t.y)) / rest;
     if (f.turned) f.reach = f.reach.yx;
+    f.sign = vec2(-side, 1.0);
+    f.exchanged = false;
     return f;
+}
+
+// From the frame's square to coordinates along half_u and half_v.
+vec2 along_sides(LightFrame f, vec2 p)
+{
+    p *= f.sign;
+    return f.exchanged ? p.yx : p;
 }
 
 // The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that centres it.
@@ -86,7 +99,12 @@ LightFrame light_frame(Light light, mat3 axes, vec2 t, float d)
         const bool first = abs(u.z) > abs(v.z);
         // a disk's axes may lie anywhere in its plane
         if (light.kind == LIGHT_DISK) return upright_frame(n.xy, length(u), length(u), t, d);
-        return upright_frame(n.xy, length(first ? u : v), length(first ? v : u), t, d);
+        const vec3 along = first ? u : v, across = first ? v : u;
+        LightFrame f = upright_frame(n.xy, length(along), length(across), t, d);
+        if (along.z < 0.0) f.sign.x = -f.sign.x;
+        if ((f.turned ? across.x : across.y) < 0.0) f.sign.y = -f.sign.y;
+        f.exchanged = !first;
+        return f;
     }
     if (light.kind == LIGHT_RECT) return parallelogram_frame(u.xy, v.xy);
     return ellipse_frame(vec3(u.x * u.x + v.x * v.x, u.x * u.y + v.x * v.y, u.y * u.y + v.y * v.y));

@@ -3,12 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/back_projection/back_projection.shared.h"
 
+#define SOFT_VISIBILITY vec4 // only red is kept unless the light has an image
 #include "shaders/pyramid.glsl"
 #include "shaders/soft_map.glsl"
 #include "techniques/back_projection/back_projection_light.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2DArray pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer LightSamples { uint light_samples[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer LightImage { vec4 light_image[]; };
 
 #define PATCHES 0
 #define TRIANGLES 2
@@ -20,7 +22,8 @@ layout(set = 0, binding = 3, scalar) readonly buffer LightSamples { uint light_s
 layout(constant_id = 0) const int occluders = PATCHES;
 layout(constant_id = 1) const int words = 8;
 layout(constant_id = 2) const int gaps = 1;
-layout(constant_id = 3) const int levels = LEVELS_WINDOW;
+layout(constant_id = 3) const bool textured = false;
+layout(constant_id = 4) const int levels = LEVELS_WINDOW;
 
 #include "shaders/light_samples.glsl"
 
@@ -73,7 +76,13 @@ void hide(vec2 lo, vec2 hi)
     const vec2 seen = clamp(x, -1.0, 1.0);
     const float middle = 0.5 * (seen.x + seen.y);
     const vec2 y = frame.scale.y * (1.0 - frame.turn * middle) * vec2(lo.y, hi.y) - frame.shear * middle;
-    hide_rectangle(vec2(x.x, y.x), vec2(x.y, y.y));
+    const vec2 a = vec2(x.x, y.x), b = vec2(x.y, y.y);
+    if (textured) {
+        const vec2 p = along_sides(frame, a), q = along_sides(frame, b);
+        hide_rectangle(min(p, q), max(p, q));
+    } else {
+        hide_rectangle(a, b);
+    }
 }
 
 // Offsets of a texel's borders from the receiver; the last texel of a level holds all that is left.
@@ -238,6 +247,15 @@ float visible_light(Viewpoint v)
     return visible_part();
 }
 
+// `visible` is what visible_light says, which may know that all or nothing is hidden without having looked at samples.
+vec3 colored_visibility(SoftPoint p, float visible)
+{
+    const vec3 n = p.receiver.n_geometric, centre = c.soft.light.position - p.receiver.p_world;
+    const vec3 above = p.horizon >= 1.0 ? vec3(1.0) : emitted_above(dot(n, centre), dot(n, c.soft.light.half_u), dot(n, c.soft.light.half_v));
+    const vec3 seen = visible <= 0.0 || visible >= 1.0 ? vec3(visible) : visible_colors();
+    return max(vec3(0.0), above - (1.0 - seen));
+}
+
 void main()
 {
     SoftPoint p;
@@ -263,5 +281,7 @@ void main()
     // areas of a disk: those of the square of its size
     if (words == 0 && c.soft.light.kind != LIGHT_RECT) frame.scale *= 1.12837917;
     // All that blocks lies above the receiver's plane, and so does what it hides of the light: not a factor of the part up there.
-    visibility = max(0.0, p.horizon - (1.0 - visible_light(v)));
+    const float visible = visible_light(v);
+    visibility = vec4(max(0.0, p.horizon - (1.0 - visible)));
+    if (textured) visibility.rgb = colored_visibility(p, visible);
 }

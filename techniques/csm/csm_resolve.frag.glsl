@@ -16,6 +16,6 @@ void main()
     const float phase = phase_of(at.t - 2.0 * c.params.offset);
     float sum = 0.0;
     for (int i = 0; i < groups; ++i)
-        sum += fourier_step(2.0 * window_mean(at, i) - 1.0, phase, i, 1.0 / float(2 * groups), c.params.attenuation);
+        sum += fourier_step(2.0 * window_mean(at, i) - 1.0, phase, i, damping(i, 1.0 / float(2 * groups), c.params.attenuation));
     visibility = reduce_bleeding(min(c.params.scale * (0.5 + sum), 1.0), c.params.bleed_reduction);
 }

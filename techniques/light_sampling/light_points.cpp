@@ -56,21 +56,35 @@ vec3 ball_point(vec3 u, const mat3& basis)
     return basis * vec3(d, std::sqrt(std::max(0.0f, 1.0f - glm::dot(d, d))) * std::cos(2.0f * pi * u.z));
 }
 
+/// Relative to the mean over the points, not over the area, so that a point that sees all of them has 1. Where none of them lies on a texel
+/// that emits in a channel, they count alike there.
+void normalise(std::vector<vec4>& weights)
+{
+    glm::dvec4 sum(0.0);
+    for (const vec4 w : weights) sum += glm::dvec4(w);
+    for (vec4& w : weights)
+        for (int c = 0; c < 4; ++c) w[c] = sum[c] > 0.0 ? float(double(w[c]) * double(weights.size()) / sum[c]) : 1.0f;
+}
+
 } // namespace
 
-std::vector<vec4> light_points(const scene::Light& light, int n, Pattern pattern, vec3 seen_from)
+LightPoints light_points(const scene::Light& light, int n, Pattern pattern, vec3 seen_from)
 {
-    if (n == 1 || !light.soft()) return {scene::light_point(light, seen_from, vec2(0.5f))};
+    if (n == 1 || !light.soft()) return {{scene::light_point(light, seen_from, vec2(0.5f))}, {vec4(1)}};
     const auto* point = std::get_if<scene::PointLight>(&light.shape);
     const auto* spot = std::get_if<scene::SpotLight>(&light.shape);
     const vec3 centre = point ? point->position : spot ? spot->position : vec3(0);
     const float radius = point ? point->radius : spot ? spot->radius : 0.0f;
     const vec3 towards = seen_from - centre;
     const mat3 basis = scene::basis_about(glm::length(towards) > 0.0f ? glm::normalize(towards) : vec3(0, 0, 1));
-    std::vector<vec4> out;
-    for (const vec3 u : pattern == Pattern::jittered ? jittered(n) : hammersley(n))
-        out.push_back(point || spot ? vec4(centre + radius * ball_point(u, basis), 1.0f)
-                                    : scene::light_point(light, seen_from, glm::min(vec2(u), vec2(1.0f - 0x1p-24f))));
+    LightPoints out;
+    for (const vec3 u : pattern == Pattern::jittered ? jittered(n) : hammersley(n)) {
+        const vec2 inside = glm::min(vec2(u), vec2(1.0f - 0x1p-24f));
+        out.points.push_back(
+            point || spot ? vec4(centre + radius * ball_point(u, basis), 1.0f) : scene::light_point(light, seen_from, inside));
+        out.weights.push_back(light.textured() ? vec4(light.image.at(inside), 1.0f) : vec4(1.0f));
+    }
+    normalise(out.weights);
     return out;
 }
 

@@ -76,17 +76,16 @@ public:
 private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        const std::vector<vec4> points
-            = light_points(frame.light, params.samples, Pattern(params.pattern), frame.resources.bounds().centre());
+        const LightPoints points = light_points(frame.light, params.samples, Pattern(params.pattern), frame.resources.bounds().centre());
         if (params.by == LIGHT_SAMPLING_RAYS)
             trace(passes, frame, points);
         else
             draw(passes, frame, params, points);
     }
 
-    Layers fit(const Frame& frame, const Params& params, const std::vector<vec4>& points) const;
-    void draw(gpu::PassList&, const Frame&, const Params&, const std::vector<vec4>& points);
-    void trace(gpu::PassList&, const Frame&, const std::vector<vec4>& points);
+    Layers fit(const Frame& frame, const Params& params, const LightPoints& points) const;
+    void draw(gpu::PassList&, const Frame&, const Params&, const LightPoints& points);
+    void trace(gpu::PassList&, const Frame&, const LightPoints& points);
 
     gpu::Device& device_;
     gpu::Buffer points_;
@@ -95,33 +94,35 @@ private:
 
 parts::LightMapSettings map_settings(const Params& params) { return {.size = params.map_size, .guard_texels = 2.0f}; }
 
-Layers LightSampling::fit(const Frame& frame, const Params& params, const std::vector<vec4>& points) const
+Layers LightSampling::fit(const Frame& frame, const Params& params, const LightPoints& points) const
 {
     const Bounds& bounds = frame.resources.bounds();
     const std::vector<vec3> casters = parts::corners(bounds), seen = receivers(frame, bounds, params.fit != 0);
     Layers out;
-    for (const vec4 point : points) {
+    for (size_t i = 0; i < points.points.size(); ++i) {
+        const vec4 point = points.points[i];
+        const vec3 weight(points.weights[i]);
         if (point.w == 0.0f) {
             out.layers.push_back(parts::fit_parallel_layer(-vec3(point), seen, casters, map_settings(params)));
-            out.samples.push_back({point, -1});
+            out.samples.push_back({point, weight, -1});
             continue;
         }
         const parts::PointFit fit = parts::fit_point_layers(vec3(point), seen, bounds, map_settings(params));
         out.layers.insert(out.layers.end(), fit.layers.begin(), fit.layers.end());
-        for (const int face : fit.faces) out.samples.push_back({point, face});
+        for (const int face : fit.faces) out.samples.push_back({point, weight, face});
     }
     return out;
 }
 
 /// The sum goes from one image to the other, since a pass cannot read what it writes. Blending into one image would add each batch's sum
 /// and round otherwise for every size of batch.
-void LightSampling::draw(gpu::PassList& passes, const Frame& frame, const Params& params, const std::vector<vec4>& points)
+void LightSampling::draw(gpu::PassList& passes, const Frame& frame, const Params& params, const LightPoints& points)
 {
     const Layers all = fit(frame, params, points);
     const size_t total = all.layers.size(), held = std::min(size_t(params.batch), total);
     const gpu::ImageId depth = passes.transient({VK_FORMAT_D32_SFLOAT, {params.map_size, params.map_size}, uint32_t(held), 1,
         VK_SAMPLE_COUNT_1_BIT, false, "maps of light points"});
-    const gpu::ImageDesc sum{VK_FORMAT_R32_SFLOAT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "sum"};
+    const gpu::ImageDesc sum{passes.desc(frame.output).format, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "sum"};
     gpu::ImageId from = passes.transient(sum), to = total > held ? passes.transient(sum) : frame.output;
     passes.clear(from, {});
     const gpu::SpecConstant spec[] = {{0, uint32_t(params.bilinear)}};
@@ -129,7 +130,7 @@ void LightSampling::draw(gpu::PassList& passes, const Frame& frame, const Params
         const size_t count = std::min(held, total - first);
         const bool last = first + count == total;
         AddConstants c{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), {}, {}, params,
-            uint32_t(points.size()), last ? 1u : 0u};
+            uint32_t(points.points.size()), last ? 1u : 0u};
         c.map.size = float(params.map_size), c.map.layer_count = uint32_t(count);
         std::copy_n(all.layers.begin() + ptrdiff_t(first), count, c.map.layers);
         std::copy_n(all.samples.begin() + ptrdiff_t(first), count, c.samples);
@@ -144,14 +145,16 @@ void LightSampling::draw(gpu::PassList& passes, const Frame& frame, const Params
     }
 }
 
-void LightSampling::trace(gpu::PassList& passes, const Frame& frame, const std::vector<vec4>& points)
+void LightSampling::trace(gpu::PassList& passes, const Frame& frame, const LightPoints& points)
 {
     if (!device_.info().ray_query)
         base::fail("light_sampling traces rays by ray queries, which this device does not have; set by=maps, or take ray_traced");
-    if (points != uploaded_) {
-        points_ = device_.buffer({points.size() * sizeof(vec4), 0, gpu::Memory::device, "light points"});
-        device_.upload(points_, std::as_bytes(std::span(points)));
-        uploaded_ = points;
+    std::vector<vec4> content = points.points;
+    content.insert(content.end(), points.weights.begin(), points.weights.end());
+    if (content != uploaded_) {
+        points_ = device_.buffer({content.size() * sizeof(vec4), 0, gpu::Memory::device, "light points"});
+        device_.upload(points_, std::as_bytes(std::span(content)));
+        uploaded_ = std::move(content);
     }
     SceneGpu& scene = frame.resources;
     passes.compute({.name = "rays",
@@ -160,8 +163,8 @@ void LightSampling::trace(gpu::PassList& passes, const Frame& frame, const std::
             scene.tlas(), {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
             {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load},
             {passes.import(points_), gpu::Use::load}},
-        .constants
-        = RayConstants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()), uint32_t(points.size())},
+        .constants = RayConstants{view_constants(frame.view, frame.index), light_constants(frame.light, scene.bounds()),
+            uint32_t(points.points.size())},
         .threads = {uint32_t(frame.view.size.width), uint32_t(frame.view.size.height), 1},
         .textures = &scene.textures()});
 }
@@ -179,6 +182,7 @@ const gnomon::shadow::TechniqueInfo technique_light_sampling = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::all_lights,
     .soft = true,
+    .textured = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::light_sampling::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::light_sampling::LightSampling>(device);

@@ -23,6 +23,7 @@ struct Params {
 /// One layer's part in the sum.
 struct LayerSample {
     vec4 point; ///< of the light: as light_point gives it
+    vec3 weight; ///< in each channel
     int face; ///< of a cube about the point: only receivers in it count; -1: all do
 };
 

@@ -16,7 +16,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { AddConstants c; };
 
 layout(constant_id = 0) const bool bilinear = true;
 
-layout(location = 0) out float visibility;
+layout(location = 0) out vec4 visibility; // only red is kept unless the light has an image
 
 float lit_in_layer(Receiver r, int index)
 {
@@ -37,11 +37,11 @@ float lit_in_layer(Receiver r, int index)
 void main()
 {
     const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = 1.0;
+    visibility = vec4(1.0);
     if (r.background) return;
-    visibility = 0.0;
+    visibility = vec4(0.0, 0.0, 0.0, 1.0);
     if (!light_reaches(c.light, r.p_world)) return;
-    float sum = texelFetch(sum_image, ivec2(gl_FragCoord.xy), 0).r;
-    for (int i = 0; i < int(c.map.layer_count); ++i) sum += lit_in_layer(r, i);
-    visibility = c.last != 0 ? min(sum / float(c.count), 1.0) : sum;
+    vec3 sum = texelFetch(sum_image, ivec2(gl_FragCoord.xy), 0).rgb;
+    for (int i = 0; i < int(c.map.layer_count); ++i) sum += lit_in_layer(r, i) * c.samples[i].weight;
+    visibility.rgb = c.last != 0 ? min(sum / float(c.count), vec3(1.0)) : sum;
 }

@@ -5,7 +5,7 @@
 
 #include "shaders/filter_resolve.glsl"
 #include "shaders/chebyshev.glsl"
-#include "techniques/msm/msm.glsl"
+#include "shaders/moments.glsl"
 
 void main()
 {

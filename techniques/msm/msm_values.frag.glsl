@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/filter_values.glsl"
 #include "techniques/msm/msm.shared.h"
-#include "techniques/msm/msm.glsl"
+#include "shaders/moments.glsl"
 
 layout(set = 1, binding = 0, scalar) uniform Constants { ValuesConstants c; };
 layout(location = 0) out vec4 moments;

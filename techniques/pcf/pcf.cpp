@@ -17,7 +17,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_map(fields, p.map_size, p.fit, 8192);
+    parts::describe_map(fields, p.map_size, p.fitting, 8192);
     fields.integer("kernel", p.kernel, {1, PCF_MAX_KERNEL}, "texels",
         "Width of the filter, n taps a side or a disk's diameter; at most a quarter of the map.");
     fields.choice("form", p.form, {"box", "gaussian", "bicubic", "poisson", "vogel"},
@@ -70,7 +70,7 @@ private:
         set_taps(c);
         const parts::LightMap map = parts::draw_light_map(passes, frame,
             {.size = params.map_size,
-                .fit = parts::Fit(params.fit),
+                .fitting = params.fitting,
                 .slope_bias = params.bias == PCF_BIAS_SLOPE ? params.bias_slope * 2.0f * reach(params, c.kernel) : 0.0f,
                 .guard_texels = reach(params, c.largest) + 1.0f});
         c.map = map.constants;

@@ -19,7 +19,7 @@ TECHNIQUE_BEGIN(pcf)
 
 struct Params {
     int map_size DEFAULT(1024);
-    int fit DEFAULT(1);
+    FitParams fitting;
     int kernel DEFAULT(9);
     int form DEFAULT(0);
     int bilinear DEFAULT(1);

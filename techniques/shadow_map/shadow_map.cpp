@@ -14,7 +14,7 @@ using namespace shadow;
 
 void describe(Params& p, Fields& fields)
 {
-    parts::describe_map(fields, p.map_size, p.fit, 8192);
+    parts::describe_map(fields, p.map_size, p.fitting, 8192);
     fields.choice("depth", p.depth, {"d32", "d16"}, "Depth format: 32-bit float or 16-bit fixed point.");
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block by the hardware instead of taking the nearest texel.");
@@ -41,7 +41,7 @@ private:
         const float radius = 0.5f * float(params.pcf - 1) + (params.bilinear ? 1.0f : 0.5f);
         const parts::LightMap map = parts::draw_light_map(passes, frame,
             {.size = params.map_size,
-                .fit = parts::Fit(params.fit),
+                .fitting = params.fitting,
                 .format = parts::DepthFormat(params.depth),
                 .slope_bias = params.bias_slope * 2.0f * radius,
                 .cull = cull[params.cull],

@@ -8,7 +8,7 @@ TECHNIQUE_BEGIN(shadow_map)
 
 struct Params {
     int map_size DEFAULT(2048);
-    int fit DEFAULT(1);
+    FitParams fitting;
     int depth DEFAULT(0);
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);

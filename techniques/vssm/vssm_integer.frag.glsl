@@ -3,15 +3,18 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/vssm/vssm.shared.h"
 
-#include "shaders/soft_map.glsl"
 #include "shaders/summed_area_table.glsl"
+#define Sums uvec2
+#include "techniques/vssm/vssm_resolve.glsl"
 
 layout(set = 0, binding = 4) uniform usampler2DArray sums_image;
 
-vec2 stored_moments(int layer, vec2 lo, vec2 hi)
+vec2 window_moments(vec2 lo, vec2 hi)
 {
-    const vec2 m = window_mean(sums_image, layer, lo, hi, c.sum_step).xy;
+    const vec2 m = window_mean(sums_image, point.layer, lo, hi, c.prefiltered.sum_step).xy;
     return vec2(2.0 * m.x - 1.0, m.y);
 }
 
-#include "techniques/vssm/vssm_resolve.glsl"
+uvec2 sums_at(ivec2 entry) { return texelFetch(sums_image, ivec3(entry, point.layer), 0).xy; }
+ivec2 texels_of_map() { return textureSize(sums_image, 0).xy - 1; }
+vec2 moments_from_mean(vec2 stored) { return c.prefiltered.sum_step * vec2(2.0, 1.0) * stored - vec2(1.0, 0.0); }

@@ -8,8 +8,10 @@
 #include "shaders/chebyshev.glsl"
 #include "techniques/vssm/vssm.shared.h"
 
-// Whoever includes this says where depths come from.
+// Whoever includes this defines what shaders/window_grid.glsl wants, but for its types, and says where depths come from.
+#define Means vec2
 vec2 window_moments(vec2 lo, vec2 hi); // means of z and z^2 over a window, texels
+vec2 moments_from_mean(vec2 stored); // z and z^2 from the mean of stored values
 float texel_depth(ivec2 texel);
 float receiver_depth(vec2 at); // of the receiver's plane
 
@@ -17,9 +19,9 @@ struct KernelSettings {
     float flat_variance; // below it a part is one surface
     float min_variance;
     vec2 slope; // centred depth that the receiver's plane gains from texel to texel
-    int grid; // parts a side of uniform subdivision
     int height; // of the quad-tree
     bool per_cell;
+    bool centred; // parts of the grid count less towards the rim
 };
 
 // Sums over the parts of a kernel whose areas add up to 1.
@@ -32,13 +34,14 @@ struct Evidence {
 
 Evidence no_evidence() { return Evidence(0.0, vec3(0.0), 0.0, vec3(0.0)); }
 
-// Means of x and x^2. Along the part the plane stays at its middle's depth.
-vec2 part_moments(vec2 lo, vec2 hi)
+// Means of x and x^2 over a part, from those of z and z^2. Along the part the plane stays at its middle's depth.
+vec2 relative_moments(vec2 m, vec2 lo, vec2 hi)
 {
     const float t = receiver_depth(0.5 * (lo + hi));
-    const vec2 m = window_moments(lo, hi);
     return vec2(m.x - t, m.y + t * (t - 2.0 * m.x));
 }
+
+vec2 part_moments(vec2 lo, vec2 hi) { return relative_moments(window_moments(lo, hi), lo, hi); }
 
 // Four texels, one for each quarter of the part, at their own places on the plane: blocked share, and sum of x.
 vec2 compare_quarters(vec2 lo, vec2 hi)
@@ -52,39 +55,42 @@ vec2 compare_quarters(vec2 lo, vec2 hi)
     return blocked;
 }
 
-// Counts a part of the kernel, or returns true where it has to be divided. A mean behind the receiver says nothing (Chebyshev's bound
-// is one-sided) unless all depths are alike.
-bool wants_division(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi, float area, bool divisible)
+// Counts a part of the kernel by its moments, or returns true where they do not suffice. A mean behind the receiver says nothing
+// (Chebyshev's bound is one-sided) unless all depths are alike; `divisible` parts have to be of one depth in front of it, too.
+bool inconclusive(inout Evidence e, KernelSettings k, vec2 m, vec2 extent, float area, bool divisible)
 {
-    const vec2 m = part_moments(lo, hi);
+    const float variance = m.y - m.x * m.x;
     // a plane that falls by s over a part has a variance of s^2 / 12; texels at the rim count as wholes
-    const vec2 across = k.slope * (hi - lo + 1.0);
-    const bool level = m.y - m.x * m.x < k.flat_variance + dot(across, across) / 12.0;
-    if (m.x >= 0.0 && level) {
-        e.lit += area;
-        return false;
-    }
-    if (divisible && (m.x >= 0.0 || (k.per_cell && !level))) return true;
+    const vec2 across = k.slope * (extent + 1.0);
+    const float own = dot(across, across) / 12.0;
     if (m.x >= 0.0) {
-        e.compared += area * vec3(1.0, compare_quarters(lo, hi));
-        return false;
+        if (variance < k.flat_variance + own) {
+            e.lit += area;
+            return false;
+        }
+        return true;
     }
+    // Before steep planes blockers vary by less than the plane. Half its deviation: with all of it undivided umbrae are lit on `balls`, with
+    // none of it parts that the plane hides are on `colonnade`.
+    if (divisible && k.per_cell && variance >= k.flat_variance + 0.25 * own) return true;
     e.bounded += area * vec3(1.0, m);
     e.dark += area * (1.0 - chebyshev(m, 0.0, k.min_variance));
     return false;
 }
 
-void add_grid(inout Evidence e, KernelSettings k, vec2 lo, vec2 size)
+bool wants_division(inout Evidence e, KernelSettings k, vec2 lo, vec2 hi, float area, bool divisible)
 {
-    // parts smaller than a texel say nothing new
-    const int n = clamp(int(ceil(max(size.x, size.y))), 1, k.grid);
-    const vec2 part = size / float(n);
-    const float area = 1.0 / float(n * n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const vec2 at = lo + part * vec2(x, y);
-            wants_division(e, k, at, at + part, area, false);
-        }
+    const bool open = inconclusive(e, k, part_moments(lo, hi), hi - lo, area, divisible);
+    if (open && !divisible) e.compared += area * vec3(1.0, compare_quarters(lo, hi));
+    return open && divisible;
+}
+
+#include "shaders/window_grid.glsl"
+
+void weigh_part(inout Evidence e, KernelSettings k, vec2 mean, vec2 lo, vec2 hi, float area)
+{
+    const bool open = inconclusive(e, k, relative_moments(moments_from_mean(mean), lo, hi), hi - lo, area, false);
+    if (open) e.compared += area * vec3(1.0, compare_quarters(lo, hi));
 }
 
 // The place of a node among those of its level, from its Morton code: x in the even bits, y in the odd ones.
@@ -130,7 +136,7 @@ Evidence weigh_kernel(KernelSettings k, vec2 lo, vec2 hi, int subdivision)
         return e;
     }
     if (!wants_division(e, k, lo, hi, 1.0, true)) return e;
-    if (subdivision == SUBDIVIDE_UNIFORM) add_grid(e, k, lo, hi - lo);
+    if (subdivision == SUBDIVIDE_UNIFORM) add_grid(e, k, lo, hi);
     else add_tree(e, k, lo, hi - lo);
     return e;
 }
@@ -146,7 +152,7 @@ float bounded_dark(Evidence e, KernelSettings k)
 // Blocked area and the mean x of the blockers. With all that is not blocked taken to lie at the receiver's depth, the mean over a
 // window is (1 - P) times the mean over its blockers (Dong 2011, equation 7.4), P being the lit fraction: with
 // x, z_occ = (mu - P t) / (1 - P) is mu / (1 - P).
-vec2 mean_blocker(Evidence e, KernelSettings k)
+vec2 kernel_blocker(Evidence e, KernelSettings k)
 {
     const float area = bounded_dark(e, k) + e.compared.y;
     return vec2(area, area > 0.0 ? (e.bounded.y + e.compared.z) / area : 0.0);

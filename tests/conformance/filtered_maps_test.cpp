@@ -78,7 +78,8 @@ protected:
         std::vector<Settings> out = {{}};
         for (const shadow::ParamInfo& p : GetParam()->params().fields) {
             const bool listed = p.type == shadow::ParamType::choice || p.type == shadow::ParamType::flag;
-            if (!listed || (!names.empty() && std::ranges::find(names, p.name) == names.end())) continue;
+            // cascades of either kind are layers to a filter
+            if (!listed || p.name == "stable_cascades" || (!names.empty() && std::ranges::find(names, p.name) == names.end())) continue;
             std::vector<Settings> longer;
             for (const Settings& s : out)
                 for (double v = p.range.min; v <= p.range.max; ++v) longer.push_back(s + Settings{{p.name, v}});

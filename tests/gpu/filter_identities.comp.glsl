@@ -5,7 +5,7 @@
 #include "techniques/esm/esm.glsl"
 #include "techniques/evsm/evsm.glsl"
 #include "techniques/lvsm/lvsm.glsl"
-#include "techniques/msm/msm.glsl"
+#include "shaders/moments.glsl"
 #include "techniques/power_cdf/power_cdf.glsl"
 #include "tests/gpu/filter_identities.shared.h"
 
@@ -56,7 +56,7 @@ float csm(WindowCase w)
             const vec2 z = depths[w.first + i];
             mean += z.y * stored(0.5 + 0.5 * sines(phase_of(z.x), k), w.bits);
         }
-        sum += fourier_step(2.0 * stored(mean, w.bits) - 1.0, phase_of(w.t), k, 1.0 / float(w.terms), w.attenuation);
+        sum += fourier_step(2.0 * stored(mean, w.bits) - 1.0, phase_of(w.t), k, damping(k, 1.0 / float(w.terms), w.attenuation));
     }
     return sum;
 }

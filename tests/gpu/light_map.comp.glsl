@@ -14,7 +14,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     const vec3 p = cases[i].p_world;
-    const int index = select_layer(cases[i].map.layout_kind, cases[i].map.centre, cases[i].map.axes, p);
+    const int index = select_layer(cases[i].map.layout_kind, cases[i].map.centre, cases[i].map.axes, cases[i].map.splits, p);
     const LightMapLayer layer = cases[i].map.layers[index];
     const MapPoint m = project(layer, p);
     const float stored = stored_from_depth(layer, m.depth);

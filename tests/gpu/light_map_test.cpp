@@ -24,10 +24,10 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     for (const char* text :
         {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5", "point,position=20/9/7",
             "rect,position=0/6/0,target=0/0/0", "rect,position=1/2/0.5,target=3/0/1", "disk,position=-1/2.5/2,target=2/1/-1"})
-        for (const auto format : {shadow::parts::DepthFormat::d32, shadow::parts::DepthFormat::d16}) {
-            const auto fit = format == shadow::parts::DepthFormat::d32 ? shadow::parts::Fit::scene : shadow::parts::Fit::view;
-            const shaders::LightMap map
-                = shadow::parts::fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fit = fit, .format = format});
+        for (const auto fit : {shadow::parts::Fit::scene, shadow::parts::Fit::view, shadow::parts::Fit::cascades}) {
+            const auto format = fit == shadow::parts::Fit::view ? shadow::parts::DepthFormat::d16 : shadow::parts::DepthFormat::d32;
+            const shaders::LightMap map = shadow::parts::fit_light_map(
+                {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}, .format = format});
             for (int i = 0; i < 300; ++i) {
                 const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
                 cases.push_back({map, p});

@@ -15,6 +15,7 @@ struct HiddenResult {
     uint mask[8];
     float area;
     float visible;
+    vec3 colors;
     uint all;
 };
 

@@ -3,6 +3,7 @@
 #include "device_fixture.h"
 #include "light_samples.shared.h"
 
+#include "shadow/parts/light_image.h"
 #include "shadow/parts/light_samples.h"
 
 #include <algorithm>
@@ -23,16 +24,20 @@ using Mask = std::array<uint32_t, 8>;
 
 class LightSamplesTest : public gpu::DeviceTest {
 protected:
-    static std::vector<HiddenResult> hide(const LightSamples& samples, int words, const std::vector<HiddenCase>& cases)
+    static std::vector<HiddenResult> hide(
+        const LightSamples& samples, int words, const std::vector<HiddenCase>& cases, const scene::LightImage& image = {})
     {
         gpu::Buffer in = storage("cases", std::span(cases)), out = storage<HiddenResult>("results", cases.size());
         gpu::Buffer table = storage("table", std::span(samples.table));
-        const gpu::SpecConstant spec[] = {{0, uint32_t(words)}};
+        const std::vector<vec4> texels = image.empty() ? std::vector<vec4>(1) : shadow::parts::light_image_table(image, samples.cells);
+        gpu::Buffer colors = storage("image", std::span(texels));
+        const gpu::SpecConstant spec[] = {{0, uint32_t(words)}, {1, image.empty() ? 0u : 1u}};
         gpu::PassList list(device());
         gpu::ComputePass pass;
         pass.name = "hide";
         pass.program = &device().compute_program("tests/gpu/light_samples.comp", spec);
-        pass.bindings = {{list.import(in), gpu::Use::load}, {list.import(out), gpu::Use::store}, {list.import(table), gpu::Use::load}};
+        pass.bindings = {{list.import(in), gpu::Use::load}, {list.import(out), gpu::Use::store}, {list.import(table), gpu::Use::load},
+            {list.import(colors), gpu::Use::load}};
         pass.constants = uint32_t(cases.size());
         pass.threads = {uint32_t(cases.size()), 1, 1};
         list.compute(std::move(pass));
@@ -98,6 +103,52 @@ TEST_F(LightSamplesTest, RepeatedRectanglesChangeMasksNotButAreas)
             sum += double(inside.z - inside.x) * double(inside.w - inside.y);
         }
         ASSERT_NEAR(double(area[i].visible), std::max(0.0, 1.0 - 0.25 * sum), 1e-6);
+    }
+}
+
+/// Red at the upper left, green at the upper right, and so on: no symmetry hides an exchange of axes or signs. No blue anywhere.
+scene::LightImage lopsided()
+{
+    const vec3 r(1, 0, 0), g(0, 2, 0), y(0.5f, 0.5f, 0), o(0);
+    return scene::make_light_image(3, 2, {r, y, g, o, g, y}, "lopsided");
+}
+
+TEST_F(LightSamplesTest, ColoursAreThoseOfTheSamplesThatAreLeft)
+{
+    const std::vector<HiddenCase> cases = random_cases(1000);
+    const scene::LightImage image = lopsided();
+    for (const int count : {64, 256}) {
+        const LightSamples samples = shadow::parts::light_samples(count, false);
+        const auto results = hide(samples, count / 32, cases, image);
+        for (size_t i = 0; i < cases.size(); ++i) {
+            glm::dvec3 left(0.0), all(0.0);
+            for (size_t s = 0; s < samples.cells.size(); ++s) {
+                const glm::dvec3 emitted(image.at((vec2(samples.cells[s]) + 0.5f) / float(light_sample_grid)));
+                all += emitted;
+                if (!(results[i].mask[s / 32] >> (s % 32) & 1u)) left += emitted;
+            }
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(double(results[i].colors[c]), left[c] / all[c], 1e-5) << i << ", channel " << c;
+            ASSERT_NEAR(results[i].colors.z, results[i].visible, 1e-5f) << "without blue light, blue counts samples";
+        }
+    }
+}
+
+TEST_F(LightSamplesTest, SummedColoursAreExact)
+{
+    std::vector<HiddenCase> cases = random_cases(1000);
+    for (HiddenCase& c : cases) c.rectangles[1] = c.rectangles[2] = vec4(5.0f);
+    const scene::LightImage image = lopsided();
+    const auto results = hide(shadow::parts::light_samples(64, false), 0, cases, image);
+    for (size_t i = 0; i < cases.size(); ++i) {
+        const vec4 r = glm::clamp(cases[i].rectangles[0], vec4(-1), vec4(1)) * 0.5f + 0.5f;
+        glm::dvec3 hidden(0.0);
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 3; ++x) {
+                const double w = std::min(double(r.z), (x + 1) / 3.0) - std::max(double(r.x), x / 3.0);
+                const double h = std::min(double(r.w), (y + 1) / 2.0) - std::max(double(r.y), y / 2.0);
+                if (w > 0 && h > 0) hidden += w * h * glm::dvec3(image.at(vec2((float(x) + 0.5f) / 3.0f, (float(y) + 0.5f) / 2.0f)));
+            }
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(double(results[i].colors[c]), 1.0 - hidden[c], 2e-6) << i << ", channel " << c;
     }
 }
 

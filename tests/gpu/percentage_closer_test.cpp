@@ -238,7 +238,8 @@ TEST_F(PercentageCloser, ReceiverPlaneFollowsTheSurfaceOverTheKernel)
     for (const char* text : {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=60", "point,position=0.5/2/-0.5"})
         for (int i = 0; i < 900; ++i) {
             const scene::Light light = scene::parse_light(text, {}, bounds);
-            const shaders::LightMap map = shadow::parts::fit_light_map({}, bounds, view, light, {.fit = shadow::parts::Fit::scene});
+            const shaders::LightMap map
+                = shadow::parts::fit_light_map({}, bounds, view, light, {.fitting = {.fit = int(shadow::parts::Fit::scene)}});
             const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
             const shaders::LightMapLayer& layer = map.layers[tests::select_layer(map, p)];
             if (!tests::project(layer, p).inside) continue;

@@ -53,17 +53,23 @@ protected:
     static std::vector<float> draw(const shadow::TechniqueInfo& info, const scene::Scene& s, const scene::Camera& camera, Size size,
         const char* light, const Values& values)
     {
+        return draw(info, s, camera, size, scene::parse_light(light, {}, s.bounds()), values);
+    }
+
+    /// Four values a pixel where the technique writes colours.
+    static std::vector<float> draw(const shadow::TechniqueInfo& info, const scene::Scene& s, const scene::Camera& camera, Size size,
+        const scene::Light& light, const Values& values)
+    {
         const Bounds bounds = s.bounds();
         const scene::View view = scene::make_view(camera, size, bounds);
         shadow::ParamValues params(info.params());
         for (const auto& [name, value] : values) params.set(name, value);
         shadow::SceneGpu scene(device(), s);
-        Image out = image("visibility", VK_FORMAT_R32_SFLOAT, size);
+        Image out = image("visibility", shadow::output_format(info, light), size);
         const std::unique_ptr<shadow::Technique> technique = info.create(device());
-        const scene::Light parsed = scene::parse_light(light, {}, bounds);
         PassList passes(device());
         const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
-        technique->record(passes, {s, view, parsed, scene, g, passes.import(out), 0}, params.bytes());
+        technique->record(passes, {s, view, light, scene, g, passes.import(out), 0}, params.bytes());
         device().submit(std::move(passes));
         return device().read_back(out).values;
     }

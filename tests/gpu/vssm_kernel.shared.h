@@ -15,7 +15,6 @@ struct KernelCase {
     float t; ///< receiver's centred depth at the field's origin
     vec2 slope DEFAULT(vec2(0.0f)); ///< of its plane, a texel
     int subdivision DEFAULT(2);
-    int grid DEFAULT(5);
     int height DEFAULT(3);
     int per_cell DEFAULT(1);
     float flat_deviation DEFAULT(0.0f);

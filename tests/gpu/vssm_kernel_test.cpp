@@ -78,7 +78,7 @@ TEST_F(VssmKernel, TwoPlanesGiveTheLitShareAndTheBlockersDepth)
             const int field = add_field([&](int col, int) { return float(col) < share * side ? 0.375f : near; });
             for (const int way : ways)
                 for (const int per_cell : {0, 1}) {
-                    cases.push_back({field, {0, 0}, {side, side}, 0.375f - 1e-6f, vec2(0), way, 5, 3, per_cell, 1e-3f});
+                    cases.push_back({field, {0, 0}, {side, side}, 0.375f - 1e-6f, vec2(0), way, 3, per_cell, 1e-3f});
                     lit.push_back(double(share));
                     x.push_back(double(near - 0.375f));
                 }
@@ -100,7 +100,7 @@ TEST_F(VssmKernel, ABlockerBeforeADeepBackgroundNeedsDivision)
     const int field = add_field([](int x, int) { return x < 12 ? -0.2f : 0.8f; });
     std::vector<KernelCase> cases;
     for (const int way : ways)
-        for (const int per_cell : {0, 1}) cases.push_back({field, {0, 0}, {side, side}, 0, vec2(0), way, 8, 3, per_cell});
+        for (const int per_cell : {0, 1}) cases.push_back({field, {0, 0}, {side, side}, 0, vec2(0), way, 3, per_cell});
     const auto results = run(cases);
     for (size_t i = 0; i < cases.size(); ++i) {
         const bool none = cases[i].subdivision == SUBDIVIDE_NONE;
@@ -118,7 +118,7 @@ TEST_F(VssmKernel, AnUndividedTiltedPlaneIsLit)
     const int field = add_field([&](int x, int y) { return 0.1f + slope.x * (float(x) + 0.5f) + slope.y * (float(y) + 0.5f); });
     std::vector<KernelCase> cases;
     for (const int way : ways) // moved to the light by less than the plane falls over a texel
-        cases.push_back({field, {3.3f, 2.1f}, {29.3f, 28.1f}, 0.1f - 0.005f, slope, way, 5, 3, 1, 0.001f});
+        cases.push_back({field, {3.3f, 2.1f}, {29.3f, 28.1f}, 0.1f - 0.005f, slope, way, 3, 1, 0.001f});
     for (const KernelResult& r : run(cases)) {
         EXPECT_EQ(r.per_cell, 1.0f);
         EXPECT_EQ(r.compared, 0.0f); // the first look decides
@@ -135,7 +135,7 @@ TEST_F(VssmKernel, EachPartsOwnBoundIsTighterAndStillABound)
         for (int i = 0; i < 20; ++i) {
             const vec2 lo = 20.0f * vec2(unit(random), unit(random));
             const float width = 2 + 9 * unit(random);
-            cases.push_back({field, lo, lo + width, 0.5f - 1e-6f, vec2(0), i % 2 ? SUBDIVIDE_UNIFORM : SUBDIVIDE_ADAPTIVE, 8, 3, 1, 1e-3f});
+            cases.push_back({field, lo, lo + width, 0.5f - 1e-6f, vec2(0), i % 2 ? SUBDIVIDE_UNIFORM : SUBDIVIDE_ADAPTIVE, 3, 1, 1e-3f});
         }
     }
     const auto results = run(cases);
@@ -149,6 +149,30 @@ TEST_F(VssmKernel, EachPartsOwnBoundIsTighterAndStillABound)
     EXPECT_GT(gain, 0.01);
 }
 
+TEST_F(VssmKernel, TheGridsRimCountsByItsCoveredPart)
+{
+    // two depths in any window: the moments of whatever parts it is cut into say all, so that only the parts' areas can be wrong
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const int field = add_field([](int x, int y) { return (x / 3 + y / 5) % 2 ? 0.5f : -0.25f; });
+    std::vector<KernelCase> cases;
+    for (int i = 0; i < 400; ++i) {
+        const vec2 lo = 12.0f * vec2(unit(random), unit(random));
+        const float widest = i % 4 ? 19.0f : 3.0f;
+        const vec2 size = 0.05f + widest * vec2(unit(random), unit(random));
+        cases.push_back({field, lo, lo + size, 0.5f - 1e-6f, vec2(0), SUBDIVIDE_UNIFORM});
+    }
+    const auto results = run(cases);
+    size_t mixed = 0;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        const glm::dvec2 truth = brute_force(cases[i]);
+        EXPECT_NEAR(double(results[i].area), 1, 1e-4) << i;
+        EXPECT_NEAR(double(results[i].per_cell), truth.x, 1e-3) << i;
+        mixed += truth.x > 0 && truth.x < 1;
+    }
+    EXPECT_GT(mixed, 300u);
+}
+
 TEST_F(VssmKernel, TheTreeEqualsTheGridOfItsLeaves)
 {
     std::mt19937 random(5);
@@ -157,14 +181,15 @@ TEST_F(VssmKernel, TheTreeEqualsTheGridOfItsLeaves)
     for (int f = 0; f < 60; ++f) {
         const int field = add_blocks(random, true);
         for (int i = 0; i < 10; ++i) {
-            const vec2 lo = 10.0f * vec2(unit(random), unit(random));
-            const float width = 8 + 12 * unit(random); // no narrower than 8 texels: all leaves exist
+            // the grid cuts at whole texels, the tree anywhere: here at the same ones
+            const vec2 lo = glm::floor(8.0f * vec2(unit(random), unit(random)));
+            const float width = i % 2 ? 8 : 16;
             const float t = (f % 2 ? 0.4f : 0.53f) + 0.07f * unit(random); // rounding of moments shows beside surfaces
-            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_UNIFORM, 8, 3, 1});
-            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_ADAPTIVE, 8, 3, 1});
+            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_UNIFORM, 3, 1});
+            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_ADAPTIVE, 3, 1});
             // pooled bounds accept a node with its mean before the receiver, whatever its parts are: the stated exception
-            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_UNIFORM, 8, 3, 0});
-            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_ADAPTIVE, 8, 3, 0});
+            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_UNIFORM, 3, 0});
+            cases.push_back({field, lo, lo + width, t, vec2(0), SUBDIVIDE_ADAPTIVE, 3, 0});
         }
     }
     const auto results = run(cases);
@@ -191,7 +216,7 @@ TEST_F(VssmKernel, DividedKernelsComeNearToComparingEveryTexel)
         const int field = add_blocks(random, true);
         for (int i = 0; i < 10; ++i) {
             const vec2 lo = 10.0f * vec2(unit(random), unit(random));
-            for (const int way : ways) cases.push_back({field, lo, lo + 16.0f, 0.49f, vec2(0), way, 8, 3, 1, 0.01f, 0.0005f});
+            for (const int way : ways) cases.push_back({field, lo, lo + 16.0f, 0.49f, vec2(0), way, 3, 1, 0.01f, 0.0005f});
         }
     }
     const auto results = run(cases);

@@ -91,7 +91,10 @@ TEST(Experiment, GroupsAreMeans)
     for (const Cell* cell : distinct_runs(e)) {
         nlohmann::ordered_json line = {{"format", 1}, {"key", cell->key}, {"device", "d"}, {"driver", "v"}, {"commit", "c"},
             {"technique", cell->choice.info->id}, {"technique_ms", ms}, {"bytes", 2097152},
-            {"passes", {{{"name", std::string(cell->choice.info->id) + "/resolve"}, {"ms", 10 * ms}}}},
+            {"passes",
+                {{{"name", std::string(cell->choice.info->id) + "/resolve"}, {"ms", 10 * ms}},
+                    {{"name", std::string(cell->choice.info->id) + "/sum rows"}, {"ms", ms}},
+                    {{"name", std::string(cell->choice.info->id) + "/sum columns"}, {"ms", 2 * ms}}}},
             {"metrics", {{"mae", nullptr}, {"rms", ms}}}};
         results.add(line.dump(), "file", ++number);
         ms *= 2;
@@ -104,12 +107,32 @@ TEST(Experiment, GroupsAreMeans)
     EXPECT_EQ(groups[0].mean("ms"), (1.0 + 4.0) / 2);
     EXPECT_EQ(groups[1].mean("ms"), 2.0);
     EXPECT_EQ(groups[0].mean("pass:resolve"), 25.0);
+    EXPECT_EQ(groups[0].mean("pass:sum*"), 7.5);
+    EXPECT_EQ(groups[0].mean("pass:sum rows+resolve"), 27.5);
+    EXPECT_FALSE(groups[0].mean("pass:sum"));
     EXPECT_EQ(groups[0].mean("mib"), 2.0);
     EXPECT_FALSE(groups[0].mean("mae")) << "what was not finite is none";
     EXPECT_EQ(grouped(rows, {"technique"}, {{"kernel", {"3"}}})[0].mean("ms"), 4.0);
     results.demand_device("d", "v", "file");
     EXPECT_THROW(results.demand_device("d", "w", "file"), base::Error);
     EXPECT_THROW(results.add("{}", "file", 3), base::Error);
+}
+
+TEST(Experiment, TablesTakeHeadingsAndPublishedRows)
+{
+    const std::string head = R"({"scene": "balls", "size": "16x8", "axes": {"kernel": [1, 3]}, )" + techniques
+        + R"(, "tables": [{"rows": ["technique"], "columns": ["mae", {"column": "pass:sum*", "label": "sums"}], "published": [)";
+    const Experiment e = read(head + R"({"rows": ["paper"], "values": [null, 2.5]}]}]})");
+    const TableSpec& table = e.tables.front();
+    EXPECT_EQ(table.columns, (std::vector<std::string>{"mae", "pass:sum*"}));
+    EXPECT_EQ(table.labels, (std::vector<std::string>{"mae", "sums"}));
+    ASSERT_EQ(table.published.size(), 1u);
+    EXPECT_EQ(table.published[0].texts.front(), "paper");
+    EXPECT_FALSE(table.published[0].numbers[0]);
+    EXPECT_EQ(table.published[0].numbers[1], 2.5);
+    EXPECT_THROW(read(head + R"({"rows": ["paper"], "values": [2.5]}]}]})"), base::Error);
+    EXPECT_THROW(read(head + R"({"rows": ["paper", "x"], "values": [1, 2.5]}]}]})"), base::Error);
+    EXPECT_THROW(read(head + R"({"rows": ["paper"], "values": ["1", 2.5]}]}]})"), base::Error);
 }
 
 } // namespace

@@ -78,7 +78,7 @@ void expect_consistent(const shaders::LightMap& map, const std::vector<vec3>& po
         EXPECT_NEAR(tests::stored_from_depth(layer, double(layer.near)), 1.0, 1e-6);
         EXPECT_NEAR(tests::stored_from_depth(layer, double(layer.far)), 0.0, 1e-6);
         EXPECT_NEAR(tests::depth_from_stored(layer, tests::stored_from_depth(layer, 0.5 * double(layer.near + layer.far))),
-            0.5 * double(layer.near + layer.far), 1e-6 * double(layer.far));
+            0.5 * double(layer.near + layer.far), 1e-6 * double(std::abs(layer.near) + std::abs(layer.far)));
     }
     for (const vec3 p : points) {
         const shaders::LightMapLayer& layer = map.layers[select_layer(map, p)];
@@ -112,12 +112,19 @@ TEST_P(LightMapFitScene, VisibleReceiversAndAllCastersLieInASunsMap)
         for (const char* sun : suns) {
             const std::string what = std::string(GetParam()) + " " + camera.name + " " + sun;
             const scene::Light light = scene::parse_light(sun, {}, bounds);
-            const shaders::LightMap of_view = fit_light_map(scene, bounds, view, light, {.size = 512, .fit = Fit::view});
-            const shaders::LightMap of_scene = fit_light_map(scene, bounds, view, light, {.size = 512, .fit = Fit::scene});
+            const shaders::LightMap of_view = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::view)}});
+            const shaders::LightMap of_scene
+                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::scene)}});
             expect_held(of_view, seen, what + ", fit=view");
             expect_held(of_scene, vertices, what + ", fit=scene");
             expect_consistent(of_view, seen);
             expect_consistent(of_scene, vertices);
+            for (const int stable : {0, 1}) {
+                const shaders::LightMap cascades
+                    = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::cascades), .stable = stable}});
+                expect_held(cascades, seen, what + ", fit=cascades");
+                expect_consistent(cascades, seen);
+            }
             EXPECT_LE(of_view.layers[0].texel_metres, of_scene.layers[0].texel_metres * 1.0001f) << what;
             size_t before = 0; // of what may cast into the part of the map that the view uses
             for (const vec3 p : vertices) before += project(of_view.layers[0], p).z > 1.0;
@@ -291,10 +298,12 @@ TEST(LightMapFit, OddViewsKeepTheirReceivers)
         scene::Light light;
         light.shape = scene::DirectionalLight{odd.sun, 0.0f};
         for (const int size : {16, 1024}) {
-            const shaders::LightMap map = fit_light_map(scene, bounds, view, light, {.size = size, .fit = Fit::view});
-            expect_consistent(map, {});
-            const std::vector<vec3> seen = visible_points(scene, view);
-            expect_held(map, seen, odd.name);
+            for (const shaders::FitParams& fitting : {shaders::FitParams{.fit = int(Fit::view)}, {.fit = int(Fit::cascades), .stable = 0},
+                     {.fit = int(Fit::cascades), .cascades = 8, .split = 1, .stable = 1}}) {
+                const shaders::LightMap map = fit_light_map(scene, bounds, view, light, {.size = size, .fitting = fitting});
+                expect_consistent(map, {});
+                expect_held(map, visible_points(scene, view), odd.name);
+            }
         }
     }
 }
@@ -305,8 +314,11 @@ TEST(LightMapFit, AViewThatSeesNothingStillHasAMap)
     const Bounds bounds = scene.bounds();
     const scene::View away = scene::make_view({"", {0, 3, 80}, {0, 3, 160}}, picture, bounds);
     EXPECT_TRUE(visible_part(away, bounds).empty());
-    const shaders::LightMap map = fit_light_map(scene, bounds, away, scene::parse_light("sun", {}, bounds), {.fit = Fit::view});
-    expect_consistent(map, {});
+    for (const Fit fit : {Fit::view, Fit::cascades})
+        for (const int stable : {0, 1})
+            expect_consistent(
+                fit_light_map(scene, bounds, away, scene::parse_light("sun", {}, bounds), {.fitting = {.fit = int(fit), .stable = stable}}),
+                {});
 }
 
 TEST(LightMapFit, FlatAndPointLikeScenesHaveAMap)
@@ -315,8 +327,9 @@ TEST(LightMapFit, FlatAndPointLikeScenesHaveAMap)
     for (const Bounds& bounds : {Bounds{low, high}, Bounds{low, low}, Bounds{{0, 0, 0}, {0, 5, 0}}})
         for (const char* text : {"sun,elevation=90", "sun,elevation=1", "point,position=0/3/0", "spot,position=0/3/0,target=0/0/0"}) {
             const scene::View view = scene::make_view({"", {0, 4, 6}, {0, 1, 0}}, picture, bounds);
-            const shaders::LightMap map = fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fit = Fit::view});
-            expect_consistent(map, {});
+            for (const Fit fit : {Fit::view, Fit::cascades})
+                expect_consistent(
+                    fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}}), {});
         }
 }
 

@@ -33,11 +33,12 @@ TEST(LightPoints, OneIsTheCentreAndSoAreAllOfALightWithoutSize)
         scene::PointLight{{1, 2, 3}, 0.5f}, scene::RectLight{}, scene::DiskLight{}};
     for (const Pattern pattern : patterns) {
         for (const scene::LightShape& shape : shapes) {
-            const std::vector<vec4> points = light_points(light_of(shape), 1, pattern, vec3(0));
+            const std::vector<vec4> points = light_points(light_of(shape), 1, pattern, vec3(0)).points;
             ASSERT_EQ(points.size(), 1u);
             EXPECT_EQ(points[0], scene::light_point(light_of(shape), vec3(0), vec2(0.5f)));
         }
-        EXPECT_EQ(light_points(light_of(scene::PointLight{{1, 2, 3}, 0}), 64, pattern, vec3(0)), std::vector<vec4>{vec4(1, 2, 3, 1)});
+        EXPECT_EQ(
+            light_points(light_of(scene::PointLight{{1, 2, 3}, 0}), 64, pattern, vec3(0)).points, std::vector<vec4>{vec4(1, 2, 3, 1)});
     }
 }
 
@@ -47,7 +48,7 @@ TEST(LightPoints, ThereAreAsManyAsAskedForAllOnTheLight)
     const scene::DirectionalLight sun{{0, -1, 0}, 0.1f};
     for (const Pattern pattern : patterns)
         for (const int n : {2, 3, 7, 16, 61, 64, 1000, 1024}) {
-            const std::vector<vec4> on_rect = light_points(light_of(rect), n, pattern, vec3(0));
+            const std::vector<vec4> on_rect = light_points(light_of(rect), n, pattern, vec3(0)).points;
             ASSERT_EQ(on_rect.size(), size_t(n));
             vec3 mean(0);
             for (const vec4 p : on_rect) {
@@ -57,7 +58,8 @@ TEST(LightPoints, ThereAreAsManyAsAskedForAllOnTheLight)
                 mean += vec3(p) / float(n);
             }
             EXPECT_LT(glm::length(mean - rect.centre), 0.6f / float(n) + 0.4f * std::pow(float(n), -0.75f)) << n;
-            for (const vec4 p : light_points(light_of(sun), n, pattern, vec3(0))) {
+            const auto spread = light_points(light_of(sun), n, pattern, vec3(0));
+            for (const vec4 p : spread.points) {
                 EXPECT_EQ(p.w, 0.0f);
                 EXPECT_NEAR(glm::length(vec3(p)), 1.0f, 1e-6f);
                 EXPECT_GE(p.y, std::cos(0.1f) - 1e-6f);
@@ -70,7 +72,8 @@ TEST(LightPoints, JitteredCellsOfEqualAreaHoldOnePointEach)
     // columns of a row of the square count its points; any count of rows gives strips with their share of the points, give or take one
     for (const int n : {5, 17, 64, 100}) {
         std::vector<float> heights;
-        for (const vec4 p : light_points(light_of(scene::RectLight{}), n, Pattern::jittered, vec3(0))) heights.push_back(p.z + 0.5f);
+        const auto spread = light_points(light_of(scene::RectLight{}), n, Pattern::jittered, vec3(0));
+        for (const vec4 p : spread.points) heights.push_back(p.z + 0.5f);
         const int rows = std::max(1, int(std::lround(std::sqrt(double(n)))));
         for (int r = 0; r < rows; ++r) {
             const int begin = n * r / rows, end = n * (r + 1) / rows;
@@ -95,7 +98,7 @@ TEST(LightPoints, ASpheresPointsAreADiskFromEverywhere)
 {
     const scene::Light sphere = light_of(scene::PointLight{vec3(0), 1.0f});
     for (const Pattern pattern : patterns) {
-        const std::vector<vec4> points = light_points(sphere, 1024, pattern, vec3(3, 5, 1));
+        const std::vector<vec4> points = light_points(sphere, 1024, pattern, vec3(3, 5, 1)).points;
         for (const vec4 p : points) ASSERT_LE(glm::length(vec3(p)), 1.0f + 1e-5f);
         for (const vec3 axis : {vec3(3, 5, 1), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, -1, 0.5f), vec3(-3, -5, -1)})
             EXPECT_LT(radial_discrepancy(points, glm::normalize(axis)), 0.04) << axis.x << " " << axis.y << " " << axis.z;

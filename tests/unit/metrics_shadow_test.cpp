@@ -196,6 +196,18 @@ TEST(Metrics, three_channels_are_averaged)
     EXPECT_EQ(measure(half(23, 0, 3), truth, true).at("edge_displacement"), 3.0);
 }
 
+TEST(Metrics, errors_of_opposite_sign_do_not_cancel)
+{
+    const Picture truth(Picture({4, 4}, 3, 0.5f));
+    Picture test = truth;
+    for (size_t i = 0; i < test.values.size(); i += 3) test.values[i] += 0.3f, test.values[i + 2] -= 0.3f;
+    const auto m = metrics::measure({test, truth, no_variance, std::vector<uint8_t>(16, 1)});
+    EXPECT_NEAR(m.at("mae"), 0.2, 1e-6);
+    EXPECT_NEAR(m.at("rms"), std::sqrt(2 * 0.09 / 3), 1e-6);
+    EXPECT_NEAR(m.at("max"), 0.3, 1e-6);
+    EXPECT_NEAR(m.at("bias"), 0.0, 1e-6);
+}
+
 TEST(Metrics, unlike_pictures_are_refused)
 {
     EXPECT_THROW(measure(Picture({8, 8}, 1), half(20), true), base::Error);

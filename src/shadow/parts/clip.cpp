@@ -42,7 +42,7 @@ std::array<vec3, 8> box_corners(const Bounds& b)
 /// Corners of the frustum, its far end just beyond the box (the view's own far plane is at infinity).
 std::array<vec3, 8> frustum_corners(const scene::View& view, const Bounds& box)
 {
-    const vec3 forward = -vec3(view.view_from_world[0][2], view.view_from_world[1][2], view.view_from_world[2][2]);
+    const vec3 forward = forward_of(view);
     float far = view.near;
     for (const vec3 c : box_corners(box)) far = std::max(far, glm::dot(c - view.eye, forward));
     far = far * 1.001f + 1e-3f;
@@ -75,6 +75,21 @@ std::vector<vec3> visible_part(const scene::View& view, const Bounds& box)
     add(faces(box_corners(box)), frustum_planes(view.clip_from_world));
     add(faces(frustum_corners(view, box)), box_planes(box));
     return points;
+}
+
+vec3 forward_of(const scene::View& view)
+{
+    return -vec3(view.view_from_world[0][2], view.view_from_world[1][2], view.view_from_world[2][2]);
+}
+
+std::vector<vec3> visible_part(const scene::View& view, const Bounds& box, float from, float to)
+{
+    const vec3 forward = forward_of(view);
+    const float eye = glm::dot(forward, view.eye);
+    Planes planes = frustum_planes(view.clip_from_world);
+    planes.push_back(vec4(forward, -eye - from));
+    planes.push_back(vec4(-forward, eye + to));
+    return vertices_within(planes, box);
 }
 
 std::vector<vec3> vertices_within(const Planes& planes, const Bounds& box)

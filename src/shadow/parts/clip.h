@@ -13,6 +13,12 @@ namespace gnomon::shadow::parts {
 /// the frustum, cut off beyond the box, clipped by the box. Empty where the view sees nothing of it.
 std::vector<vec3> visible_part(const scene::View&, const Bounds& box);
 
+/// The same between two distances from the eye along the view's axis.
+std::vector<vec3> visible_part(const scene::View&, const Bounds& box, float from, float to);
+
+/// The axis along which a view looks, unit.
+vec3 forward_of(const scene::View&);
+
 /// The vertices of the part of the box, widened by a ten-thousandth, that is inside of all planes. Empty where there is none.
 std::vector<vec3> vertices_within(const Planes&, const Bounds& box);
 

@@ -11,8 +11,6 @@
 
 namespace gnomon::shadow::parts {
 
-namespace {
-
 int channels_of(VkFormat format)
 {
     switch (format) {
@@ -27,18 +25,19 @@ int channels_of(VkFormat format)
     }
 }
 
-gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shaders::FilterParams& params, const ValuesPass& pass)
+gpu::ImageId draw_values(gpu::PassList& passes, const LightMap& map, int prefilter, const ValuesPass& pass)
 {
     const gpu::ImageDesc depth = passes.desc(map.depth);
+    const uint32_t mips = pass.with_mips ? pyramid_levels(depth.size) : 1;
     const gpu::ImageId values = passes.transient(
-        {pass.format, depth.size, depth.layers * uint32_t(pass.groups), 1, VK_SAMPLE_COUNT_1_BIT, false, "filtered values"});
+        {pass.format, depth.size, depth.layers * uint32_t(pass.groups), mips, VK_SAMPLE_COUNT_1_BIT, false, "filtered values"});
     for (uint32_t layer = 0; layer < depth.layers; ++layer) {
         gpu::FullscreenPass out;
         out.name = "values";
         out.program = &passes.device().raster_program("shaders/fullscreen.vert", pass.shader);
         out.bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
         out.bindings.insert(out.bindings.end(), pass.more.begin(), pass.more.end());
-        out.constants = pass.constants({map.constants.layers[layer], int(layer), params.prefilter});
+        out.constants = pass.constants({map.constants.layers[layer], int(layer), prefilter});
         for (int group = 0; group < pass.groups; ++group) {
             gpu::ColorTarget target{values, gpu::Load::discard};
             target.layer = layer * uint32_t(pass.groups) + uint32_t(group);
@@ -50,11 +49,9 @@ gpu::ImageId make_values(gpu::PassList& passes, const LightMap& map, const shade
     return values;
 }
 
-} // namespace
-
 void describe_filter(Fields& fields, shaders::FilterParams& p, Averages averages)
 {
-    describe_map(fields, p.map_size, p.fit, 4096);
+    describe_map(fields, p.map_size, p.fitting, 4096);
     fields.integer("kernel", p.kernel, {1, 127}, "texels", "Width of the filter window; at most a quarter of the map.");
     std::vector<std::string> ways = {"box", "gaussian", "mips", "sums"};
     ways.resize(averages == Averages::all ? 4 : averages == Averages::no_sums ? 3 : 2);
@@ -71,7 +68,7 @@ LightMap draw_map_to_filter(gpu::PassList& passes, const Frame& frame, const sha
 {
     return draw_light_map(passes, frame,
         {.size = params.map_size,
-            .fit = Fit(params.fit),
+            .fitting = params.fitting,
             .guard_texels = 0.5f * float(filter_width(params.kernel, params.map_size)) + 1.0f});
 }
 
@@ -86,7 +83,7 @@ FilteredMap filter_map(
     const int width = filter_width(params.kernel, params.map_size);
     FilteredMap out;
     out.map = map;
-    out.values = make_values(passes, map, params, pass);
+    out.values = draw_values(passes, map, params.prefilter, pass);
     out.constants = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants,
         params, pass.groups, width % 2 == 0 ? 0.5f : 0.0f};
     out.constants.params.kernel = width;

@@ -25,11 +25,18 @@ struct ValuesPass {
     VkFormat format = VK_FORMAT_R32G32_SFLOAT; ///< of one, two or four channels
     int groups = 1; ///< images of values for each layer of the map, at most `outputs`
     int outputs = 1; ///< that the shader declares, at most 8
+    bool with_mips = false; ///< all of them, the others to be filled (draw_values)
     std::vector<gpu::Binding> more{}; ///< of the shader, after its depth map
     std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer
     gpu::ImageId (*average)(gpu::PassList&, gpu::ImageId values, int width, bool with_mips)
         = nullptr; ///< instead of the mean that FilterParams asks for
 };
+
+/// Channels of a format of values.
+int channels_of(VkFormat);
+
+/// The images of values, one array: layer of the map * groups + group. `prefilter` (PREFILTER_*) is what the shader is told.
+gpu::ImageId draw_values(gpu::PassList&, const LightMap&, int prefilter, const ValuesPass&);
 
 struct FilteredMap {
     LightMap map;

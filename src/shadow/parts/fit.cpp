@@ -39,27 +39,23 @@ Bounds in_axes(const std::vector<vec3>& points, const mat4& axes)
     return out;
 }
 
-/// How much wider a single layer is than its receivers: a rim, so that the outermost ones still have neighbours to filter.
+} // namespace
+
 float rim_factor(const LightMapSettings& settings)
 {
     const float rim = std::max(2.0f, settings.guard_texels - 1.0f);
     return float(settings.size) / std::max(float(settings.size) - 2.0f * rim, 1.0f);
 }
 
-/// One orthographic layer around `receivers`; depth from the first caster to the last receiver.
-shaders::LightMapLayer orthographic_layer(
-    const mat4& axes, const Bounds& receivers, const Bounds& casters, const LightMapSettings& settings)
+shaders::LightMapLayer orthographic_layer(const mat4& axes, vec2 centre, float extent, vec2 receivers, vec2 casters, int size)
 {
-    const int size = settings.size;
-    const float extent = std::max({receivers.max.x - receivers.min.x, receivers.max.y - receivers.min.y, 1e-4f}) * rim_factor(settings);
-    const vec3 centre = receivers.centre();
     // Depths are compared to millionths of the range, and positions round to millionths of the scene's width: a flat scene gets a range
     // of a tenth of its width.
-    const float depth = casters.max.z - casters.min.z;
+    const float depth = casters.y - casters.x;
     const float slack = std::max(1e-3f * depth, 0.5f * (0.1f * extent - depth));
     shaders::LightMapLayer layer{};
-    layer.near = std::min(casters.min.z, receivers.min.z) - slack;
-    layer.far = std::max(receivers.max.z, layer.near) + slack;
+    layer.near = std::min(casters.x, receivers.x) - slack;
+    layer.far = std::max(receivers.y, layer.near) + slack;
     mat4 clip(1);
     clip[0][0] = clip[1][1] = 2.0f / extent;
     clip[3][0] = -centre.x * 2.0f / extent, clip[3][1] = -centre.y * 2.0f / extent;
@@ -69,6 +65,8 @@ shaders::LightMapLayer orthographic_layer(
     layer.texel_metres = extent / float(size);
     return layer;
 }
+
+namespace {
 
 /// One perspective layer: reversed depth with both planes fitted to the scene. `tangent`: of the half angle.
 shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float near, float far, int size)
@@ -164,7 +162,9 @@ shaders::LightMapLayer fit_parallel_layer(
     Bounds box;
     for (const vec3 p : casters) box.add(p);
     const mat4 axes = light_axes(box.centre(), direction, vec3(0, 1, 0));
-    return orthographic_layer(axes, in_axes(receivers, axes), in_axes(casters, axes), settings);
+    const Bounds seen = in_axes(receivers, axes), cast = in_axes(casters, axes);
+    const float extent = std::max({seen.max.x - seen.min.x, seen.max.y - seen.min.y, 1e-4f}) * rim_factor(settings);
+    return orthographic_layer(axes, vec2(seen.centre()), extent, {seen.min.z, seen.max.z}, {cast.min.z, cast.max.z}, settings.size);
 }
 
 PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings& settings)
@@ -195,8 +195,12 @@ shaders::LightMap fit_light_map(
     map.size = float(settings.size);
     map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
+        if (Fit(settings.fitting.fit) == Fit::cascades) {
+            fit_cascades(map, bounds, view, sun->direction, settings);
+            return map;
+        }
         const std::vector<vec3> casters = corners(bounds);
-        const std::vector<vec3> seen = settings.fit == Fit::view ? visible_part(view, bounds) : casters;
+        const std::vector<vec3> seen = Fit(settings.fitting.fit) == Fit::view ? visible_part(view, bounds) : casters;
         map.layer_count = 1;
         map.layers[0] = fit_parallel_layer(sun->direction, seen.empty() ? casters : seen, casters, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {

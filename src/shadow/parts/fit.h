@@ -13,10 +13,25 @@ mat4 light_axes(vec3 origin, vec3 direction, vec3 up);
 
 std::vector<vec3> corners(const Bounds&);
 
+/// How much wider a single layer is than its receivers: a rim, so that the outermost ones still have neighbours to filter.
+float rim_factor(const LightMapSettings&);
+
+/// A square of `extent` metres about `centre` in a light's axes; `receivers`, `casters`: least and greatest depth. Stored depth reaches
+/// from the first caster to the last receiver.
+shaders::LightMapLayer orthographic_layer(const mat4& axes, vec2 centre, float extent, vec2 receivers, vec2 casters, int size);
+
 /// A parallel light's layer: orthographic, around `receivers`, from the first of `casters` (points that hold all of them) to the last
 /// receiver.
 shaders::LightMapLayer fit_parallel_layer(
     vec3 direction, const std::vector<vec3>& receivers, const std::vector<vec3>& casters, const LightMapSettings&);
+
+/// Where each of `count` cascades ends between `near` and `far`, along the view: `split` = 0 gives them one length, 1 one ratio (the
+/// optimum for a plane through the view's axis that the light grazes), and between is the mean so weighted (Zhang, Sun, Xu, Lun 2006,
+/// "Parallel-split shadow maps", equation 4).
+std::vector<float> cascade_ends(float near, float far, int count, float split);
+
+/// A layer for each cascade.
+void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 direction, const LightMapSettings&);
 
 /// What one perspective layer, or the faces of a cube, see from a point of a light.
 struct PointFit {
@@ -33,5 +48,18 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 /// `depth`'s. With `before`, only what lies behind the depths of that image.
 void draw_light_layers(
     gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth, gpu::ImageId before = {});
+
+/// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
+/// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
+/// of `pass`, and the constants begin with clip_from_world for each layer.
+void draw_casters(
+    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass, const gpu::Program& masked);
+
+/// What draws into a layer of the map: its clip coordinates.
+mat4 clip_from_world(const shaders::LightMapLayer&);
+
+/// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
+/// onto it, not lost.
+Planes caster_planes(const shaders::LightMapLayer&);
 
 } // namespace gnomon::shadow::parts

@@ -7,22 +7,11 @@ namespace gnomon::shadow::parts {
 
 namespace {
 
-// map_from_world gives uv; the rasteriser wants clip coordinates
-const mat4 clip_from_map = glm::scale(mat4(1), vec3(2, 2, 1)) * glm::translate(mat4(1), vec3(-0.5f, -0.5f, 0));
-
 shaders::LightDepthConstants depth_constants(const shaders::LightMap& map)
 {
     shaders::LightDepthConstants c{};
-    for (uint32_t i = 0; i < map.layer_count; ++i) c.clip_from_world[i] = clip_from_map * map.layers[i].map_from_world;
+    for (uint32_t i = 0; i < map.layer_count; ++i) c.clip_from_world[i] = clip_from_world(map.layers[i]);
     return c;
-}
-
-/// Without the near plane for orthographic layers: casters before it are clamped onto it, not lost.
-Planes caster_planes(const mat4& clip_from_world, bool perspective)
-{
-    Planes planes = frustum_planes(clip_from_world);
-    if (!perspective) planes.pop_back();
-    return planes;
 }
 
 gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings& settings)
@@ -33,34 +22,38 @@ gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings&
 
 } // namespace
 
-void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
-    gpu::ImageId depth, gpu::ImageId before)
+mat4 clip_from_world(const shaders::LightMapLayer& layer)
+{
+    // map_from_world gives uv; the rasteriser wants clip coordinates
+    static const mat4 clip_from_map = glm::scale(mat4(1), vec3(2, 2, 1)) * glm::translate(mat4(1), vec3(-0.5f, -0.5f, 0));
+    return clip_from_map * layer.map_from_world;
+}
+
+Planes caster_planes(const shaders::LightMapLayer& layer)
+{
+    Planes planes = frustum_planes(clip_from_world(layer));
+    if (layer.perspective == 0) planes.pop_back();
+    return planes;
+}
+
+void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
+    gpu::RasterPass pass, const gpu::Program& masked)
 {
     SceneGpu& scene = frame.resources;
-    gpu::Device& device = scene.device();
-    const gpu::Program& opaque
-        = device.raster_program("src/shadow/parts/light_depth.vert", before ? "src/shadow/parts/light_depth_peel.frag" : "");
-    const gpu::Program& masked = device.raster_program("src/shadow/parts/light_depth_masked.vert",
-        before ? "src/shadow/parts/light_depth_masked_peel.frag" : "src/shadow/parts/light_depth_masked.frag");
-
-    gpu::RasterPass pass;
-    pass.name = "light map";
-    pass.program = &opaque;
-    pass.bindings = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
-    if (before) pass.bindings.push_back(gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY));
-    pass.constants = depth_constants(map);
+    const gpu::Program& opaque = *pass.program;
+    const gpu::Binding casters[] = {{passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load}};
+    pass.bindings.insert(pass.bindings.begin(), std::begin(casters), std::end(casters));
     pass.textures = &scene.textures();
-    pass.depth = gpu::DepthTarget{depth};
     pass.layers = map.layer_count;
     pass.cull = settings.cull;
     pass.depth_clamp = map.layers[0].perspective == 0;
     pass.depth_bias = settings.slope_bias != 0.0f;
     pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream()};
-    pass.draw = [&scene, &masked, &opaque, map, c = depth_constants(map), settings](gpu::Encoder& encoder) {
+    pass.draw = [&scene, &masked, &opaque, map, settings](gpu::Encoder& encoder) {
         // reversed depth: away from the light is down
         if (settings.slope_bias != 0.0f) encoder.depth_bias(0.0f, 0.0f, -settings.slope_bias);
         for (uint32_t layer = 0; layer < map.layer_count; ++layer) {
-            const Planes planes = caster_planes(c.clip_from_world[layer], map.layers[layer].perspective != 0);
+            const Planes planes = caster_planes(map.layers[layer]);
             encoder.program(opaque);
             scene.draw(encoder, {.sets = draw_opaque, .cull = &planes, .second = SceneGpu::Second::attributes, .layer = layer});
             if (!scene.has(draw_masked)) continue;
@@ -71,11 +64,34 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
     passes.raster(std::move(pass));
 }
 
-void describe_map(Fields& fields, int& map_size, int& fit, int largest)
+void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
+    gpu::ImageId depth, gpu::ImageId before)
+{
+    gpu::Device& device = passes.device();
+    gpu::RasterPass pass;
+    pass.name = "light map";
+    pass.program = &device.raster_program("src/shadow/parts/light_depth.vert", before ? "src/shadow/parts/light_depth_peel.frag" : "");
+    if (before) pass.bindings = {gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
+    pass.constants = depth_constants(map);
+    pass.depth = gpu::DepthTarget{depth};
+    draw_casters(passes, frame, map, settings, std::move(pass),
+        device.raster_program("src/shadow/parts/light_depth_masked.vert",
+            before ? "src/shadow/parts/light_depth_masked_peel.frag" : "src/shadow/parts/light_depth_masked.frag"));
+}
+
+void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int largest)
 {
     fields.integer("map_size", map_size, {16, double(largest)}, "texels", "Width and height of each depth layer.");
-    fields.choice(
-        "fit", fit, {"scene", "view"}, "What a directional light's map covers: the whole scene, or the part of it that the view sees.");
+    fields.choice("fit", p.fit, {"scene", "view", "cascades"},
+        "What a directional light's map covers: the whole scene, the part of it that the view sees, or that part in several layers, nearer "
+        "ones with smaller texels.");
+    fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` is cascades.");
+    fields.real("cascade_split", p.split, {0, 1}, "",
+        "Cascades' ends: 0, each as long as the others; 1, each the same multiple of the one before; between.");
+    fields.flag("stable_cascades", p.stable,
+        "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
+        "waste "
+        "texels.");
 }
 
 LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)

@@ -10,12 +10,13 @@
 // filter is written once, against shaders/light_map.glsl, and runs with every fit and every light.
 namespace gnomon::shadow::parts {
 
-enum class Fit : int { scene, view }; ///< directional: the map covers the scene, or what the view sees of it
+/// Of a directional light: the map covers the scene, what the view sees of it, or that in several layers, one behind another.
+enum class Fit : int { scene, view, cascades };
 enum class DepthFormat : int { d32, d16 };
 
 struct LightMapSettings {
     int size = 1024; ///< texels a side, each layer
-    Fit fit = Fit::view;
+    shaders::FitParams fitting = {};
     DepthFormat format = DepthFormat::d32;
     float slope_bias = 0.0f; ///< polygon offset factor, applied by the hardware while drawing (factor * max |dz/dx|, |dz/dy|)
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
@@ -27,12 +28,12 @@ struct LightMap {
     shaders::LightMap constants; ///< for shaders/light_map.glsl
 };
 
-/// Describes the two parameters that every technique with a light map has. `largest`: texels a side, by what else it keeps of a map.
-void describe_map(Fields&, int& map_size, int& fit, int largest);
+/// Describes the parameters that every technique with a light map has. `largest`: texels a side, by what else it keeps of a map.
+void describe_map(Fields&, int& map_size, shaders::FitParams&, int largest);
 
-/// Which layouts exist for a light: directional -> one orthographic layer; spot up to 120 degrees -> one perspective layer; wider
-/// spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that stands as they do:
-/// the face along +z is parallel to them, and its rows and columns to a rectangle's sides.
+/// Which layouts exist for a light: directional -> one orthographic layer, or one for each cascade; spot up to 120 degrees -> one
+/// perspective layer; wider spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that
+/// stands as they do: the face along +z is parallel to them, and its rows and columns to a rectangle's sides.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
 
 /// A filter of `kernel` texels held to what a map can give: a quarter of its side. Wider ones would average unrelated parts of the

@@ -78,6 +78,11 @@ NBuffer build_mean_n_buffer(gpu::PassList& passes, gpu::ImageId from, int channe
     return build(passes, {from}, Kind::mean, float_format(channels), levels);
 }
 
+NBuffer build_mean_n_buffer(gpu::PassList& passes, gpu::ImageId from, VkFormat format, uint32_t levels)
+{
+    return build(passes, {from}, Kind::mean, format, levels);
+}
+
 YMap build_y_map(gpu::PassList& passes, gpu::ImageId from, uint32_t coarseness)
 {
     coarseness = std::min(coarseness, pyramid_levels(passes.desc(from).size) - 1);

@@ -7,18 +7,26 @@ namespace gnomon::shadow::parts {
 
 void describe_soft(Fields& fields, shaders::SoftParams& p, int largest)
 {
-    describe_map(fields, p.map_size, p.fit, largest);
+    describe_map(fields, p.map_size, p.fitting, largest);
     fields.real(
         "bias", p.bias, {0, 16}, "texels", "A receiver is moved towards the light by the depth that its plane gains over so many texels.");
+}
+
+LightMapSettings soft_map_settings(const shaders::SoftParams& params)
+{
+    return {.size = params.map_size, .fitting = params.fitting, .guard_texels = 0.125f * float(params.map_size) + 1.0f};
+}
+
+shaders::SoftResolve soft_constants(const Frame& frame, const shaders::LightMap& map, const shaders::SoftParams& params)
+{
+    return {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), map, params};
 }
 
 SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::SoftParams& params)
 {
     SoftMap out;
-    out.settings = {.size = params.map_size, .fit = Fit(params.fit), .guard_texels = 0.125f * float(params.map_size) + 1.0f};
-    out.map = draw_light_map(passes, frame, out.settings);
-    out.constants
-        = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), out.map.constants, params};
+    out.map = draw_light_map(passes, frame, soft_map_settings(params));
+    out.constants = soft_constants(frame, out.map.constants, params);
     return out;
 }
 

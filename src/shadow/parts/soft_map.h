@@ -11,16 +11,21 @@
 // What soft shadow methods that look at one light map share: its parameters, its drawing, and the pass that writes the result.
 namespace gnomon::shadow::parts {
 
-/// Describes the shared parameters; `largest` as in describe_map.
+/// Describes the shared parameters; maps have up to `largest` texels a side.
 void describe_soft(Fields&, shaders::SoftParams&, int largest = 4096);
 
 struct SoftMap {
     LightMap map;
     shaders::SoftResolve constants; ///< for shaders/soft_map.glsl
-    LightMapSettings settings;
 };
 
-/// Draws the light map from the light's centre, with a rim of an eighth of its side for windows that reach over the receivers.
+/// How the light map is fitted: with a rim of an eighth of its side for windows that reach over the receivers.
+LightMapSettings soft_map_settings(const shaders::SoftParams&);
+
+/// The constants of a map so fitted, for those who draw it themselves.
+shaders::SoftResolve soft_constants(const Frame&, const shaders::LightMap&, const shaders::SoftParams&);
+
+/// Draws the light map from the light's centre.
 SoftMap draw_soft_map(gpu::PassList&, const Frame&, const shaders::SoftParams&);
 
 /// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow.

@@ -43,6 +43,20 @@ gpu::ImageId build_integer_sums(gpu::PassList& passes, gpu::ImageId from, int ch
     return scan(passes, "sum columns", rows, format, "src/shadow/parts/summed_area_integer.comp", {});
 }
 
+gpu::ImageId build_word_sums(gpu::PassList& passes, const std::vector<gpu::Binding>& sources, gpu::Size size, uint32_t layers,
+    const char* rows, gpu::Constants constants)
+{
+    const VkFormat format = VK_FORMAT_R32G32B32A32_UINT;
+    const gpu::ImageId sums
+        = passes.transient({format, {size.height, size.width + 1}, layers, 1, VK_SAMPLE_COUNT_1_BIT, false, "summed-area table"});
+    std::vector<gpu::Binding> bindings = sources;
+    bindings.emplace_back(sums, gpu::Use::store);
+    const gpu::SpecConstant channels[] = {{0, 4}};
+    passes.compute({"sum rows", &passes.device().compute_program(rows, channels), std::move(bindings), std::move(constants),
+        {uint32_t(size.height) * 32, layers, 1}});
+    return scan(passes, "sum columns", sums, format, "src/shadow/parts/summed_area_integer.comp", {});
+}
+
 int integer_sum_bits(double texels) { return std::clamp(32 - int(std::ceil(std::log2(std::max(texels, 1.0)))), 1, 24); }
 
 } // namespace gnomon::shadow::parts

@@ -4,6 +4,8 @@
 #include "gpu/pass_list.h"
 #include "scene/math.h"
 
+#include <vector>
+
 // Summed-area tables (Crow 1984): the sum over any rectangle of texels by four fetches, whatever its size. The image is one texel
 // wider and higher than the source: entry (x, y) is the sum over columns < x and rows < y, so that no fetch needs a border.
 // Lookups: shaders/summed_area_table.glsl.
@@ -20,6 +22,11 @@ gpu::ImageId build_float_sums(gpu::PassList&, gpu::ImageId from, int channels, v
 /// The table may wrap around as often as it likes: a box sum, being taken modulo 2^32 too, is exact as long as it is below 2^32 itself,
 /// that is for windows of up to 2^(32 - bits) texels.
 gpu::ImageId build_integer_sums(gpu::PassList&, gpu::ImageId from, int channels, int bits);
+
+/// Sums of 32-bit words, four a texel, in a table of `layers` layers. The compute shader `rows` makes the words out of `sources` (its first
+/// bindings) and writes their running sums by src/shadow/parts/summed_area_scan.glsl to the binding after them.
+gpu::ImageId build_word_sums(
+    gpu::PassList&, const std::vector<gpu::Binding>& sources, gpu::Size, uint32_t layers, const char* rows, gpu::Constants);
 
 /// The most bits with which sums over windows of up to `texels` texels are exact.
 int integer_sum_bits(double texels);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef GNOMON_MSM_GLSL
-#define GNOMON_MSM_GLSL
+// Four moments of a window of depths: how they are stored, and the least shadow that they allow.
+#ifndef GNOMON_MOMENTS_GLSL
+#define GNOMON_MOMENTS_GLSL
 
 // A basis of the even and of the odd moments in which 16-bit fixed point loses least (Peters and Klein 2015, section 3.3): each
 // polynomial fills [0, 1] for t in [-1, 1], and the map's determinant is large.
@@ -20,8 +21,9 @@ vec4 moments_from_quantised(vec4 q)
 }
 
 // Of all distributions of depth with the moments b = (E[z], E[z^2], E[z^3], E[z^4]), z in [-1, 1], the one with the least mass before
-// t is t itself and two other depths (Peters and Klein 2015, algorithm 1). 1 - that mass bounds the lit fraction from above.
-float msm_visibility(vec4 b, float t, float bias)
+// t is t itself and two other depths (Peters and Klein 2015, algorithm 1). x: that mass, not a number where b says nothing; y: its integral
+// of z - t, which the mean of b gives where both other depths are before t.
+vec2 moments_before(vec4 b, float t, float bias)
 {
     b = mix(b, vec4(0.0, 0.628, 0.0, 0.628), bias);
     // Cholesky factorisation of the Hankel matrix (1 b1 b2; b1 b2 b3; b2 b3 b4) and the solution of H x = (1, t, t^2)
@@ -46,9 +48,16 @@ float msm_visibility(vec4 b, float t, float bias)
     const float s = -0.5 * (x.y + (x.y < 0.0 ? -root : root));
     const float small = s == 0.0 ? 0.0 : x.x / s, large = s / (abs(x.z) < 1e-6 * abs(s) ? 1e-6 * abs(s) : x.z);
     const float z1 = min(small, large), z2 = max(small, large);
-    float mass = 0.0; // before t
-    if (z2 < t) mass = 1.0 + (z1 * z2 - b.x * (z1 + z2) + b.y) / ((z2 - t) * (t - z1));
-    else if (z1 < t) mass = (t * z2 - b.x * (t + z2) + b.y) / ((z2 - z1) * (t - z1));
+    if (z2 < t) return vec2(1.0 + (z1 * z2 - b.x * (z1 + z2) + b.y) / ((z2 - t) * (t - z1)), b.x - t);
+    if (!(z1 < t)) return vec2(0.0);
+    const float mass = (t * z2 - b.x * (t + z2) + b.y) / ((z2 - z1) * (t - z1));
+    return vec2(mass, mass * (z1 - t));
+}
+
+// An upper bound of the lit fraction.
+float msm_visibility(vec4 b, float t, float bias)
+{
+    const float mass = moments_before(b, t, bias).x;
     return isnan(mass) ? 1.0 : clamp(1.0 - mass, 0.0, 1.0);
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vertex shader of a pass that draws casters into a light's layers. The includer names its block of constants, CASTER_CONSTANTS, whose
+// first member is clip_from_world for each layer, and defines CASTERS_MASKED where light_masked.glsl follows.
+#ifndef GNOMON_LIGHT_CASTERS_GLSL
+#define GNOMON_LIGHT_CASTERS_GLSL
+#extension GL_GOOGLE_include_directive : require
+#extension GL_ARB_shader_viewport_layer_array : require
+#include "shaders/scene.glsl"
+
+layout(location = 0) in vec3 position;
+layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
+layout(set = 1, binding = 0, scalar) uniform Constants { CASTER_CONSTANTS c; };
+
+layout(location = 2) flat out int layer; // for light_depth_peel.glsl
+
+#ifdef CASTERS_MASKED
+layout(location = 2) in vec2 uv;
+layout(location = 3) in uint color;
+layout(location = 0) out vec3 uv_alpha;
+layout(location = 1) flat out uint material;
+#endif
+
+void main()
+{
+    const uint slot = instance_slot(gl_InstanceIndex);
+    gl_Layer = layer = instance_layer(gl_InstanceIndex);
+    gl_Position = c.clip_from_world[gl_Layer] * vec4(transform_point(instances[slot], position), 1.0);
+#ifdef CASTERS_MASKED
+    uv_alpha = vec3(uv, unpackUnorm4x8(color).a);
+    material = instances[slot].material;
+#endif
+}
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/cssm/cssm.shared.h"
+
+#define SAMPLER sampler2DArray
+#include "shaders/summed_area_table.glsl"
+#include "techniques/cssm/cssm_resolve.glsl"
+
+vec4 window_value(sampler2DArray values, int layer, vec2 lo, vec2 hi) { return window_mean(values, layer, lo, hi); }

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Occlusion textures as a whole, where visibility has a closed form, where the wrong answer is known, and where the input is bad.
+#include "scene/analytic.h"
+#include "technique_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+extern const gnomon::shadow::TechniqueInfo technique_occlusion_textures;
+extern const gnomon::shadow::TechniqueInfo technique_shadow_map;
+
+namespace gnomon {
+namespace {
+
+using gpu::add_quad;
+using gpu::camera_above;
+using gpu::floor_scene;
+
+constexpr double sums = 0, n_buffer = 1, mips = 2;
+constexpr double product = 0, sum = 1, greatest = 2, mean_of_both = 3, joined = 4;
+constexpr double uniform = 0, fitted = 2;
+constexpr double none = 0;
+
+/// A sheet that hides the part [lo, hi] of what the origin sees of the light, which is 4 m above it.
+void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi)
+{
+    lo *= height / 4, hi *= height / 4;
+    scene::Mesh mesh;
+    mesh.positions = {{lo.x, height, lo.y}, {lo.x, height, hi.y}, {hi.x, height, hi.y}, {hi.x, height, lo.y}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    scene::complete(mesh);
+    s.instances.push_back({int(s.meshes.size()), mat4(1)});
+    s.meshes.push_back(mesh);
+}
+
+constexpr const char* square_light = "rect,position=0/4/0,target=0/0/0,width=1,height=1";
+
+class OcclusionTextures : public gpu::TechniqueTest {
+protected:
+    static std::vector<float> draw(
+        const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values)
+    {
+        return TechniqueTest::draw(technique_occlusion_textures, s, camera, size, light, values);
+    }
+    static double at_origin(const scene::Scene& s, const char* light, const Values& values)
+    {
+        return mean(draw(s, camera_above({0, 0, 0}, 0.05f, 1e-4f), {2, 2}, light, values));
+    }
+    /// The visibility along y = 0, z = 0 from x = -half to half.
+    static std::vector<float> profile(const scene::Scene& s, float half, const char* light, const Values& values)
+    {
+        return draw(s, camera_above({0, 0, 0}, 0.9f, half / 128), {128, 1}, light, values);
+    }
+};
+
+/// A sheet one metre above the floor over x < 0, wider than the penumbrae are.
+scene::Scene half_plane()
+{
+    scene::Scene s = floor_scene(4);
+    add_quad(s, {-4, 1, 0}, 4);
+    return s;
+}
+
+TEST_F(OcclusionTextures, HalfPlanesAreRampsWithinATexel)
+{
+    const char* text = "rect,position=0/5/0,target=0/0/0,width=1.2,height=1.2";
+    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
+    // the penumbra is 0.3 m wide; a texel of the sheet, 4 m from the light, is 4 * 2 / 766 = 0.0104 m, on the floor 0.013 m, of which half
+    // at the edge; N-buffers and mips interpolate between widths that are powers of two, and mips between texels as wide
+    const std::pair<double, double> filters[] = {{sums, 0.025}, {n_buffer, 0.1}, {mips, 0.15}};
+    for (const auto& [filter, allowed] : filters)
+        for (const double placement : {uniform, 1.0, fitted}) {
+            const auto got = profile(half_plane(), 0.4f, text, {{"prefilter", filter}, {"placement", placement}});
+            for (int i = 0; i < 128; ++i) {
+                const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
+                ASSERT_NEAR(double(got[size_t(i)]), scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1), allowed)
+                    << "at " << x << ", prefilter " << filter << ", placement " << placement;
+            }
+        }
+}
+
+TEST_F(OcclusionTextures, RectanglesHideTheirShare)
+{
+    scene::Scene s = floor_scene(4);
+    add_blocker(s, 2, {-0.3f, -0.1f}, {0.2f, 0.45f});
+    // a texel of the sheet is 0.0052 m, from here 0.0104 of the light: half of one at each edge
+    EXPECT_NEAR(at_origin(s, square_light, {}), 1 - 0.5 * 0.55, 0.012);
+    EXPECT_NEAR(at_origin(s, square_light, {{"prefilter", n_buffer}}), 1 - 0.5 * 0.55, 0.05);
+    EXPECT_NEAR(at_origin(s, square_light, {{"prefilter", mips}}), 1 - 0.5 * 0.55, 0.2)
+        << "a mean of four squares, each twice as wide as the window at worst";
+}
+
+TEST_F(OcclusionTextures, WideWindowsAreCountedInParts)
+{
+    // a sheet 0.4 m below the light: its window is 0.9 m wide, half the map and twice as much as half words count
+    scene::Scene s = floor_scene(4);
+    add_blocker(s, 3.6f, {-0.3f, -0.2f}, {0.2f, 0.4f});
+    EXPECT_NEAR(at_origin(s, square_light, {{"map_size", 2048}}), 1 - 0.5 * 0.6, 0.01);
+    EXPECT_NEAR(at_origin(s, square_light, {{"map_size", 256}}), 1 - 0.5 * 0.6, 0.02) << "the same in one part";
+}
+
+TEST_F(OcclusionTextures, EdgesBeforeRoundLightsAreRamps)
+{
+    const char* text = "disk,position=0/5/0,target=0/0/0,radius=0.8";
+    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
+    double off[2] = {};
+    for (int kernel = 0; kernel < 2; ++kernel) {
+        const auto got = profile(half_plane(), 0.4f, text, {{"kernel", double(kernel)}});
+        for (int i = 0; i < 128; ++i) {
+            const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
+            off[kernel]
+                = std::max(off[kernel], std::abs(double(got[size_t(i)]) - scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1)));
+        }
+    }
+    // against the area of a segment a ramp is off by at most 0.0577 around the disk, by 0.0226 at its area; half a texel is 0.016 more
+    EXPECT_LT(off[0], 0.0577 + 0.016);
+    EXPECT_LT(off[1], 0.0226 + 0.016);
+    EXPECT_GT(off[0], 0.05);
+}
+
+TEST_F(OcclusionTextures, FusionIsAGuess)
+{
+    // 30 % and 70 % of the light: side by side, overlapping by 10 %, and one within the other. All that the guesses know is the two
+    // numbers.
+    for (const float begin : {-0.2f, -0.3f, -0.5f}) {
+        scene::Scene s = floor_scene(4);
+        add_blocker(s, 1.5f, {-0.5f, -0.5f}, {-0.2f, 0.5f});
+        add_blocker(s, 0.7f, {begin, -0.5f}, {begin + 0.7f, 0.5f});
+        const auto hidden = [&](double fusion) { return 1 - at_origin(s, square_light, {{"fusion", fusion}}); };
+        // half a texel at each edge: 0.004 of the light for the upper sheet, 0.013 for the lower
+        EXPECT_NEAR(hidden(product), 1 - 0.7 * 0.3, 0.03) << begin;
+        EXPECT_NEAR(hidden(sum), 1.0, 0.03) << begin;
+        EXPECT_NEAR(hidden(greatest), 0.7, 0.03) << begin;
+        EXPECT_NEAR(hidden(mean_of_both), 0.85, 0.03) << begin;
+    }
+}
+
+TEST_F(OcclusionTextures, JoinedSlicesKeepTiltedSheetsWhole)
+{
+    // a sheet over all of the light that crosses many slices, each of which sees a band of it
+    scene::Scene s = floor_scene(4);
+    scene::Mesh roof;
+    roof.positions = {{-1.5f, 1.2f, -2}, {-1.5f, 1.2f, 2}, {1.5f, 2.4f, 2}, {1.5f, 2.4f, -2}};
+    roof.indices = {0, 1, 2, 0, 2, 3};
+    scene::complete(roof);
+    s.instances.push_back({int(s.meshes.size()), mat4(1)});
+    s.meshes.push_back(roof);
+    const Values even{{"placement", uniform}, {"slices", 16}, {"map_size", 512}};
+    const auto with = [&](double fusion) {
+        Values values = even;
+        values.emplace_back("fusion", fusion);
+        return at_origin(s, "rect,position=0/4/0,target=0/0/0,width=2,height=2", values);
+    };
+    EXPECT_GT(with(product), 0.15) << "bands of 1 / k of the light, taken for independent, leave (1 - 1 / k)^k of it";
+    EXPECT_LT(with(sum), 0.03);
+    EXPECT_LT(with(joined), 0.03);
+}
+
+/// A few sheets at several heights, and the floor below them.
+scene::Scene clutter()
+{
+    scene::Scene s = floor_scene(3);
+    add_quad(s, {-1, 0.5f, -0.4f}, 0.5f);
+    add_quad(s, {0.2f, 1.0f, -0.2f}, 0.4f);
+    add_quad(s, {0.4f, 1.7f, 0}, 0.5f);
+    add_quad(s, {1.2f, 0.2f, 0.6f}, 0.4f);
+    return s;
+}
+
+const scene::Camera from_the_side{.eye = {0, 2.5f, 3.5f}, .target = {0, 0.2f, 0}};
+constexpr const char* lights[]
+    = {"sun,elevation=60,azimuth=30,angle=6", "point,position=0.5/4/0.3,radius=0.3", "spot,position=1/4/1,target=0/0/0,cone=70,radius=0.2",
+        "rect,position=0/4/0.5,target=0/0/0,width=0.8,height=0.5", "disk,position=0.4/4/0,target=0/0/0,radius=0.4"};
+
+TEST_F(OcclusionTextures, ProductsLieBetweenSumsAndTheGreatest)
+{
+    for (const char* light : lights) {
+        const auto with = [&](double fusion) {
+            return draw(clutter(), from_the_side, {48, 36}, light, {{"fusion", fusion}, {"map_size", 256}});
+        };
+        const auto low = with(sum), high = with(greatest), between = with(product), half = with(mean_of_both);
+        for (size_t i = 0; i < low.size(); ++i) {
+            ASSERT_LE(low[i], between[i] + 1e-5f) << light;
+            ASSERT_LE(between[i], high[i] + 1e-5f) << light;
+            ASSERT_LE(low[i], half[i] + 1e-5f) << light;
+            ASSERT_LE(half[i], high[i] + 1e-5f) << light;
+        }
+        EXPECT_GT(mean(high) - mean(low), 1e-4) << light << ": nowhere do two slices hide something";
+    }
+}
+
+TEST_F(OcclusionTextures, BlockersInTheReceiversOwnSliceHideNothingUnlessCompared)
+{
+    // one slice holds all
+    const auto blocked = draw(clutter(), from_the_side, {48, 36}, lights[1], {{"slices", 1}, {"own", none}});
+    const auto nothing = draw(floor_scene(3), from_the_side, {48, 36}, lights[1], {{"slices", 1}, {"own", none}});
+    for (size_t i = 0; i < blocked.size(); ++i)
+        if (nothing[i] == 1.0f) {
+            ASSERT_EQ(blocked[i], 1.0f);
+        }
+    const auto compared = draw(clutter(), from_the_side, {48, 36}, lights[1], {{"slices", 1}});
+    EXPECT_LT(mean(compared), mean(blocked) - 0.05);
+    // without a size of the light, one slice with comparisons is a shadow map
+    const char* point = "point,position=0.5/4/0.3,radius=0";
+    const auto hard = TechniqueTest::draw(technique_shadow_map, clutter(), from_the_side, {96, 72}, point, {});
+    const auto own = draw(clutter(), from_the_side, {96, 72}, point, {{"slices", 1}});
+    size_t different = 0;
+    for (size_t i = 0; i < hard.size(); ++i) different += std::abs(own[i] - hard[i]) > 0.5f;
+    EXPECT_LT(different, hard.size() / 100);
+}
+
+TEST_F(OcclusionTextures, LightsWithoutASizeCastHardShadows)
+{
+    scene::Scene s = floor_scene(4);
+    add_quad(s, {-1, 1, 0}, 1);
+    add_quad(s, {1, 0.3f, 0.5f}, 0.5f);
+    const scene::Camera camera = camera_above({0, 0, 0}, 6, 2.5f);
+    for (const char* light :
+        {"sun,elevation=60,azimuth=20,angle=0", "spot,position=1/6/1,target=0/0/0,cone=80,radius=0", "point,position=0.5/4/0.3,radius=0"})
+        for (const double fusion : {product, sum, greatest, joined}) {
+            const auto soft = draw(s, camera, {128, 96}, light, {{"fit", 0}, {"fusion", fusion}});
+            const auto hard = TechniqueTest::draw(technique_shadow_map, s, camera, {128, 96}, light, {{"fit", 0}});
+            size_t grey = 0, different = 0;
+            for (size_t i = 0; i < soft.size(); ++i) {
+                grey += soft[i] != 0.0f && soft[i] != 1.0f;
+                different += std::abs(soft[i] - hard[i]) > 0.5f;
+            }
+            EXPECT_EQ(grey, 0u) << light << ", fusion " << fusion;
+            // the maps differ by the rim that soft methods leave, so that edges fall into other texels
+            EXPECT_LT(different, soft.size() / 100) << light << ", fusion " << fusion;
+        }
+}
+
+TEST_F(OcclusionTextures, TiltedPlanesDoNotShadowThemselves)
+{
+    const scene::Scene s = floor_scene(10);
+    const scene::Camera camera{.eye = {0, 6, 9}, .target = {0, 0, 0}};
+    for (const char* light :
+        {"sun,elevation=60,azimuth=20,angle=5", "sun,elevation=15,azimuth=200,angle=5", "point,position=1/2/0.5,radius=0.4",
+            "rect,position=3/3/3,target=0/0/0,width=2,height=1", "disk,position=3/2/-3,target=0/0/0,radius=1"})
+        for (const double own : {0.0, 1.0}) {
+            const std::vector<float> open = draw(s, camera, {64, 48}, light, {{"slices", 16}, {"own", own}, {"map_size", 512}});
+            const std::vector<float> nothing = draw(s, camera, {64, 48}, light, {{"slices", 1}, {"own", none}, {"map_size", 512}});
+            for (size_t i = 0; i < open.size(); ++i)
+                if (nothing[i] > 0.999f) {
+                    ASSERT_GT(open[i], 0.97f) << light << ", own " << own << ", pixel " << i;
+                }
+            EXPECT_NEAR(mean(open), mean(nothing), 0.01) << light << ", own " << own;
+            EXPECT_GT(mean(open), 0.2) << light;
+        }
+}
+
+TEST_F(OcclusionTextures, BadInputGivesFractions)
+{
+    scene::Scene s = floor_scene(2);
+    add_quad(s, {0, 0.5f, 0}, 0.5f);
+    const scene::Camera camera{.eye = {0, 3, 4}, .target = {0, 0, 0}};
+    for (const char* light : {"sun,elevation=1,azimuth=20,angle=60", "sun,elevation=-30,azimuth=20,angle=5",
+             "rect,position=0/1/0,target=0/0/0,width=100,height=100", "rect,position=0/0/0,target=1/0/0,width=1,height=1",
+             "rect,position=0/1/0,target=0/0/0,width=0.00001,height=2", "disk,position=0/0.5/0,target=0/0/0,radius=3",
+             "disk,position=0/-1/0,target=0/-2/0,radius=1", "point,position=0/0.5/0,radius=2", "point,position=0/0.001/1,radius=0.5",
+             "spot,position=0/30/0,target=0/0/0,cone=1,radius=5"})
+        for (const double size : {16.0, 64.0})
+            for (const double filter : {sums, n_buffer, mips})
+                for (const auto& [fusion, slices] : {std::pair(product, 16.0), std::pair(joined, 5.0)}) {
+                    const auto got = draw(
+                        s, camera, {48, 32}, light, {{"map_size", size}, {"prefilter", filter}, {"fusion", fusion}, {"slices", slices}});
+                    for (const float v : got) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << light << ": " << v;
+                }
+}
+
+} // namespace
+} // namespace gnomon
