@@ -9,7 +9,10 @@
 #define CORRECT_SHARPEN 1
 #define CORRECT_LEVEL 2
 // A map of 512 texels, windows of up to a quarter of it; a macro, since GLSL takes no commas in DEFAULT.
-#define CSSM_MAP {{512}, SUMS_INTEGER, 0.25f}
+#define CSSM_MAP                                                                                                                           \
+    {                                                                                                                                      \
+        {512}, SUMS_INTEGER, 0.25f                                                                                                         \
+    }
 
 TECHNIQUE_BEGIN(cssm)
 
