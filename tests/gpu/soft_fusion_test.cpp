@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-extern const gnomon::shadow::TechniqueInfo technique_light_sampling, technique_pcss, technique_vssm;
+extern const gnomon::shadow::TechniqueInfo technique_back_projection, technique_cssm, technique_light_sampling, technique_moment_soft,
+    technique_occlusion_textures, technique_pcss, technique_vssm;
 
 namespace gnomon {
 namespace {
@@ -85,8 +86,10 @@ protected:
 
 TEST_F(SoftFusion, SamplesOfTheLightAreRight)
 {
-    for (const Arrangement& a : arrangements())
+    for (const Arrangement& a : arrangements()) {
         EXPECT_NEAR(visible(technique_light_sampling, a, {{"samples", 256}}), 1 - a.hidden, 0.02) << a.hidden;
+        EXPECT_NEAR(visible(technique_back_projection, a, {}), 1 - a.hidden, 0.06) << a.hidden; // half a texel of either at each edge
+    }
 }
 
 TEST_F(SoftFusion, OneDepthForAllBlockersGivesThePredictedWrongValue)
@@ -96,8 +99,19 @@ TEST_F(SoftFusion, OneDepthForAllBlockersGivesThePredictedWrongValue)
         EXPECT_GT(std::abs(predicted - (1 - a.hidden)), 0.02) << "not wrong";
         EXPECT_NEAR(visible(technique_pcss, a, {{"pattern", 0}, {"centred", 0}, {"map_size", 2048}, {"cap", 1024}}), predicted, 0.02)
             << a.hidden;
-        EXPECT_NEAR(visible(technique_vssm, a, {{"map_size", 2048}}), predicted, 0.05) << a.hidden;
+        const Values moments = {{"map_size", 2048}, {"widest", 0.25}, {"centred", 0}};
+        EXPECT_NEAR(visible(technique_vssm, a, moments), predicted, 0.05) << a.hidden;
+        EXPECT_NEAR(visible(technique_moment_soft, a, moments), predicted, 0.05) << a.hidden;
+        EXPECT_NEAR(visible(technique_cssm, a, {{"map_size", 2048}, {"widest", 0.25}, {"terms", 16}, {"iterations", 0}}), predicted, 0.05)
+            << a.hidden;
     }
+}
+
+// One after another, as if neither knew of the other: 0.3 of 0.7 is left however they lie.
+TEST_F(SoftFusion, SlicesMultiply)
+{
+    for (const Arrangement& a : arrangements())
+        EXPECT_NEAR(visible(technique_occlusion_textures, a, {{"map_size", 2048}, {"fusion", 0}}), 0.7 * 0.3, 0.05) << a.hidden;
 }
 
 } // namespace
