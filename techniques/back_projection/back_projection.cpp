@@ -5,6 +5,7 @@
 #include "gpu/device.h"
 #include "shadow/parts/light_image.h"
 #include "shadow/parts/light_samples.h"
+#include "shadow/parts/n_buffer.h"
 #include "shadow/parts/pyramid.h"
 #include "shadow/parts/soft_map.h"
 #include "shadow/technique.h"
@@ -32,6 +33,9 @@ void describe(Params& p, Fields& fields)
         "Whether a patch reaches to its blocking neighbours left of it and below, where their depths leave a gap; quads have none.");
     fields.choice("search", p.search, {"map", "window", "umbra"},
         "Texels looked at: all of the map (the definition), those that can hide the light, or those and none where all of them block.");
+    fields.choice("ranges", p.ranges, {"pyramid", "y_map", "multiscale"},
+        "Where a window's least and greatest depth come from: the pyramid, of up to four times the window; a Y map, of the window rounded "
+        "outwards to four texels; or a multiscale map, of the window, in eleven times the memory.");
     fields.choice("levels", p.levels, {"window", "casters"},
         "Levels of the pyramid that are read: one for a window, with the nearest depths, or one for each slice of casters, with the depths "
         "at "
@@ -48,17 +52,21 @@ class BackProjection final : public TechniqueWith<Params> {
         while (int(layers.size()) < params.layers)
             layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, parts::soft_map_settings(params.soft), layers.back()));
         const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, layers);
+        parts::NBuffer windows{pyramid, {}};
+        if (params.ranges != RANGES_PYRAMID)
+            windows = parts::build_multiscale_map_of(passes, pyramid, params.ranges == RANGES_Y_MAP ? 2 : 0);
         constexpr uint32_t words[] = {0, 2, 8};
         const bool textured = frame.light.textured();
         const gpu::SpecConstant spec[] = {{0, uint32_t(params.occluders)}, {1, words[params.accumulate]}, {2, uint32_t(params.gaps)},
-            {3, textured ? 1u : 0u}, {4, uint32_t(params.levels)}};
+            {3, textured ? 1u : 0u}, {4, uint32_t(params.levels)}, {5, uint32_t(params.ranges)}};
         const bool disk = frame.light.kind() != scene::LightKind::rect;
         const int count = params.accumulate == 2 ? 256 : 64;
         const gpu::BufferId table = passes.import(samples(passes.device(), count, disk));
         parts::resolve_soft(passes, frame, "techniques/back_projection/back_projection_resolve.frag", spec,
-            ResolveConstants{map.constants, params},
+            ResolveConstants{map.constants, params, windows.constants},
             {gpu::Binding(pyramid, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {table, gpu::Use::load},
-                {textured ? passes.import(image(passes.device(), frame.light.image, count)) : table, gpu::Use::load}});
+                {textured ? passes.import(image(passes.device(), frame.light.image, count)) : table, gpu::Use::load},
+                gpu::Binding(windows.image, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
     }
 
     gpu::Buffer& samples(gpu::Device& device, int count, bool disk)

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef GNOMON_BACK_PROJECTION_SHARED_H
 #define GNOMON_BACK_PROJECTION_SHARED_H
+#include "shaders/n_buffer.shared.h"
 #include "shaders/soft_map.shared.h"
+
+#define RANGES_PYRAMID 0
+#define RANGES_Y_MAP 1
+#define RANGES_MULTISCALE 2
 
 TECHNIQUE_BEGIN(back_projection)
 
@@ -12,6 +17,7 @@ struct Params {
     int accumulate DEFAULT(2);
     int gaps DEFAULT(1);
     int search DEFAULT(2);
+    int ranges DEFAULT(RANGES_PYRAMID);
     int levels DEFAULT(1);
     int budget DEFAULT(32);
 };
@@ -19,6 +25,7 @@ struct Params {
 struct ResolveConstants {
     SoftResolve soft;
     Params params;
+    NBuffer windows; ///< RANGES_Y_MAP, RANGES_MULTISCALE
 };
 
 SHARED_END

@@ -4,6 +4,7 @@
 #include "techniques/back_projection/back_projection.shared.h"
 
 #define SOFT_VISIBILITY vec4 // only red is kept unless the light has an image
+#include "shaders/n_buffer.glsl"
 #include "shaders/pyramid.glsl"
 #include "shaders/soft_map.glsl"
 #include "techniques/back_projection/back_projection_light.glsl"
@@ -11,6 +12,7 @@
 layout(set = 0, binding = 2) uniform sampler2DArray pyramid;
 layout(set = 0, binding = 3, scalar) readonly buffer LightSamples { uint light_samples[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer LightImage { vec4 light_image[]; };
+layout(set = 0, binding = 5) uniform sampler2DArray windows;
 
 #define PATCHES 0
 #define TRIANGLES 2
@@ -24,6 +26,7 @@ layout(constant_id = 1) const int words = 8;
 layout(constant_id = 2) const int gaps = 1;
 layout(constant_id = 3) const bool textured = false;
 layout(constant_id = 4) const int levels = LEVELS_WINDOW;
+layout(constant_id = 5) const int ranges = RANGES_PYRAMID;
 
 #include "shaders/light_samples.glsl"
 
@@ -175,7 +178,9 @@ Window seen_window(Viewpoint v, float nearest)
 {
     const vec2 half_width = frame.reach * ((nearest - v.stored) / v.stretch) + 1e-3;
     const vec2 lo = v.at - half_width, hi = v.at + half_width, most = vec2(v.size - 1);
-    return Window(ivec2(clamp(floor(lo), vec2(0.0), most)), ivec2(clamp(floor(hi), vec2(0.0), most)), min_max_window(pyramid, v.layer, lo, hi));
+    const vec2 stored = ranges == RANGES_PYRAMID ? min_max_window(pyramid, v.layer, lo, hi)
+                                                 : min_max_window(pyramid, windows, c.windows, v.layer, lo, hi);
+    return Window(ivec2(clamp(floor(lo), vec2(0.0), most)), ivec2(clamp(floor(hi), vec2(0.0), most)), stored);
 }
 
 // The texels that can hide the light. Each round knows a nearest depth of fewer of them (Guennebaud et al. 2006, section 4.1).

@@ -16,6 +16,7 @@ using gpu::floor_scene;
 constexpr double area = 0, bitmask8 = 1, bitmask16 = 2;
 constexpr double patches = 0, quads = 1, triangles = 2, mixed = 3;
 constexpr double whole_map = 0, window = 1, umbra = 2;
+constexpr double pyramid = 0, y_map = 1, multiscale = 2;
 constexpr double of_window = 0, of_casters = 1; // levels
 
 /// A horizontal sheet.
@@ -229,8 +230,13 @@ TEST_F(BackProjection, WindowsHoldAllThatTheWholeMapHolds)
                     {"budget", levels == of_casters ? 8.0 : 64.0}};
                 Values all = values, some = values;
                 all.emplace_back("search", whole_map), some.emplace_back("search", window);
-                EXPECT_EQ(draw(s, from_the_side, {48, 36}, light, all), draw(s, from_the_side, {48, 36}, light, some))
-                    << light << ", occluders " << occluder << ", levels " << levels << ", gaps " << gaps;
+                const std::vector<float> want = draw(s, from_the_side, {48, 36}, light, all);
+                some.emplace_back("ranges", pyramid);
+                for (const double ranges : {pyramid, y_map, multiscale}) {
+                    some.back().second = ranges;
+                    EXPECT_EQ(draw(s, from_the_side, {48, 36}, light, some), want)
+                        << light << ", occluders " << occluder << ", levels " << levels << ", gaps " << gaps << ", ranges " << ranges;
+                }
             }
 }
 

@@ -73,6 +73,11 @@ NBuffer build_multiscale_map(gpu::PassList& passes, gpu::ImageId from, uint32_t 
     return build(passes, {from}, Kind::centred_min_max, VK_FORMAT_R32G32_SFLOAT, levels);
 }
 
+NBuffer build_multiscale_map_of(gpu::PassList& passes, gpu::ImageId pyramid, uint32_t mip)
+{
+    return build(passes, {pyramid, mip, true}, Kind::centred_min_max, VK_FORMAT_R32G32_SFLOAT, ~0u);
+}
+
 NBuffer build_mean_n_buffer(gpu::PassList& passes, gpu::ImageId from, int channels, uint32_t levels)
 {
     return build(passes, {from}, Kind::mean, float_format(channels), levels);
@@ -88,7 +93,7 @@ YMap build_y_map(gpu::PassList& passes, gpu::ImageId from, uint32_t coarseness)
     coarseness = std::min(coarseness, pyramid_levels(passes.desc(from).size) - 1);
     YMap map;
     map.pyramid = build_min_max_pyramid(passes, from, coarseness + 1);
-    map.coarse = build(passes, {map.pyramid, coarseness, true}, Kind::centred_min_max, VK_FORMAT_R32G32_SFLOAT, ~0u);
+    map.coarse = build_multiscale_map_of(passes, map.pyramid, coarseness);
     return map;
 }
 

@@ -24,6 +24,9 @@ uint32_t n_buffer_levels(int side);
 NBuffer build_min_max_n_buffer(gpu::PassList&, gpu::ImageId from, uint32_t levels = ~0u);
 NBuffer build_multiscale_map(gpu::PassList&, gpu::ImageId from, uint32_t levels = ~0u);
 
+/// Of level `mip` of a pyramid of least and greatest values (parts/pyramid.h).
+NBuffer build_multiscale_map_of(gpu::PassList&, gpu::ImageId pyramid, uint32_t mip);
+
 /// Means of `channels` (1, 2 or 4) of a float image, in 32-bit float, or in `format`, which rounds at each level.
 NBuffer build_mean_n_buffer(gpu::PassList&, gpu::ImageId from, int channels, uint32_t levels = ~0u);
 NBuffer build_mean_n_buffer(gpu::PassList&, gpu::ImageId from, VkFormat format, uint32_t levels = ~0u);
