@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The technique as a whole on scenes of a few sheets, where visibility has a closed form.
-#include "technique_fixture.h"
+#include "soft_fixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@ extern const gnomon::shadow::TechniqueInfo technique_back_projection;
 namespace gnomon {
 namespace {
 
+using gpu::add_sheet;
 using gpu::camera_above;
 using gpu::floor_scene;
 
@@ -18,17 +19,6 @@ constexpr double patches = 0, quads = 1, triangles = 2, mixed = 3;
 constexpr double whole_map = 0, window = 1, umbra = 2;
 constexpr double pyramid = 0, y_map = 1, multiscale = 2;
 constexpr double of_window = 0, of_casters = 1; // levels
-
-/// A horizontal sheet.
-void add_sheet(scene::Scene& s, float height, vec2 lo, vec2 hi)
-{
-    scene::Mesh mesh;
-    mesh.positions = {{lo.x, height, lo.y}, {lo.x, height, hi.y}, {hi.x, height, hi.y}, {hi.x, height, lo.y}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    scene::complete(mesh);
-    s.instances.push_back({int(s.meshes.size()), mat4(1)});
-    s.meshes.push_back(mesh);
-}
 
 /// What the light, 4 m above the origin, shows of a sheet at `height` there covers this of the light.
 void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi) { add_sheet(s, height, lo * (height / 4), hi * (height / 4)); }

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Occlusion textures as a whole, where visibility has a closed form, where the wrong answer is known, and where the input is bad.
-#include "scene/analytic.h"
-#include "technique_fixture.h"
-
-#include <algorithm>
-#include <cmath>
+#include "soft_fixture.h"
 
 extern const gnomon::shadow::TechniqueInfo technique_occlusion_textures;
-extern const gnomon::shadow::TechniqueInfo technique_shadow_map;
 
 namespace gnomon {
 namespace {
@@ -22,20 +17,11 @@ constexpr double uniform = 0, fitted = 2;
 constexpr double none = 0;
 
 /// A sheet that hides the part [lo, hi] of what the origin sees of the light, which is 4 m above it.
-void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi)
-{
-    lo *= height / 4, hi *= height / 4;
-    scene::Mesh mesh;
-    mesh.positions = {{lo.x, height, lo.y}, {lo.x, height, hi.y}, {hi.x, height, hi.y}, {hi.x, height, lo.y}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    scene::complete(mesh);
-    s.instances.push_back({int(s.meshes.size()), mat4(1)});
-    s.meshes.push_back(mesh);
-}
+void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi) { gpu::add_sheet(s, height, lo * (height / 4), hi * (height / 4)); }
 
 constexpr const char* square_light = "rect,position=0/4/0,target=0/0/0,width=1,height=1";
 
-class OcclusionTextures : public gpu::TechniqueTest {
+class OcclusionTextures : public gpu::SoftTest {
 protected:
     static std::vector<float> draw(
         const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values)
@@ -46,37 +32,19 @@ protected:
     {
         return mean(draw(s, camera_above({0, 0, 0}, 0.05f, 1e-4f), {2, 2}, light, values));
     }
-    /// The visibility along y = 0, z = 0 from x = -half to half.
-    static std::vector<float> profile(const scene::Scene& s, float half, const char* light, const Values& values)
-    {
-        return draw(s, camera_above({0, 0, 0}, 0.9f, half / 128), {128, 1}, light, values);
-    }
 };
-
-/// A sheet one metre above the floor over x < 0, wider than the penumbrae are.
-scene::Scene half_plane()
-{
-    scene::Scene s = floor_scene(4);
-    add_quad(s, {-4, 1, 0}, 4);
-    return s;
-}
 
 TEST_F(OcclusionTextures, HalfPlanesAreRampsWithinATexel)
 {
-    const char* text = "rect,position=0/5/0,target=0/0/0,width=1.2,height=1.2";
-    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
     // the penumbra is 0.3 m wide; a texel of the sheet, 4 m from the light, is 4 * 2 / 766 = 0.0104 m, on the floor 0.013 m, of which half
     // at the edge; N-buffers and mips interpolate between widths that are powers of two, and mips between texels as wide
     const std::pair<double, double> filters[] = {{sums, 0.025}, {n_buffer, 0.1}, {mips, 0.15}};
     for (const auto& [filter, allowed] : filters)
-        for (const double placement : {uniform, 1.0, fitted}) {
-            const auto got = profile(half_plane(), 0.4f, text, {{"prefilter", filter}, {"placement", placement}});
-            for (int i = 0; i < 128; ++i) {
-                const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
-                ASSERT_NEAR(double(got[size_t(i)]), scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1), allowed)
-                    << "at " << x << ", prefilter " << filter << ", placement " << placement;
-            }
-        }
+        for (const double placement : {uniform, 1.0, fitted})
+            EXPECT_LE(half_plane_error(technique_occlusion_textures, "rect,position=0/5/0,target=0/0/0,width=1.2,height=1.2",
+                          {{"prefilter", filter}, {"placement", placement}}),
+                allowed)
+                << "prefilter " << filter << ", placement " << placement;
 }
 
 TEST_F(OcclusionTextures, RectanglesHideTheirShare)
@@ -101,21 +69,7 @@ TEST_F(OcclusionTextures, WideWindowsAreCountedInParts)
 
 TEST_F(OcclusionTextures, EdgesBeforeRoundLightsAreRamps)
 {
-    const char* text = "disk,position=0/5/0,target=0/0/0,radius=0.8";
-    const scene::Light light = scene::parse_light(text, {}, half_plane().bounds());
-    double off[2] = {};
-    for (int kernel = 0; kernel < 2; ++kernel) {
-        const auto got = profile(half_plane(), 0.4f, text, {{"kernel", double(kernel)}});
-        for (int i = 0; i < 128; ++i) {
-            const float x = -0.4f + 0.8f * (float(i) + 0.5f) / 128;
-            off[kernel]
-                = std::max(off[kernel], std::abs(double(got[size_t(i)]) - scene::analytic::half_plane_visibility(light, {x, 0, 0}, 0, 1)));
-        }
-    }
-    // against the area of a segment a ramp is off by at most 0.0577 around the disk, by 0.0226 at its area; half a texel is 0.016 more
-    EXPECT_LT(off[0], 0.0577 + 0.016);
-    EXPECT_LT(off[1], 0.0226 + 0.016);
-    EXPECT_GT(off[0], 0.05);
+    expect_ramps_before_disks(technique_occlusion_textures, 0.016, {}); // half a texel
 }
 
 TEST_F(OcclusionTextures, FusionIsAGuess)
@@ -211,24 +165,7 @@ TEST_F(OcclusionTextures, BlockersInTheReceiversOwnSliceHideNothingUnlessCompare
 
 TEST_F(OcclusionTextures, LightsWithoutASizeCastHardShadows)
 {
-    scene::Scene s = floor_scene(4);
-    add_quad(s, {-1, 1, 0}, 1);
-    add_quad(s, {1, 0.3f, 0.5f}, 0.5f);
-    const scene::Camera camera = camera_above({0, 0, 0}, 6, 2.5f);
-    for (const char* light :
-        {"sun,elevation=60,azimuth=20,angle=0", "spot,position=1/6/1,target=0/0/0,cone=80,radius=0", "point,position=0.5/4/0.3,radius=0"})
-        for (const double fusion : {product, sum, greatest, joined}) {
-            const auto soft = draw(s, camera, {128, 96}, light, {{"fit", 0}, {"fusion", fusion}});
-            const auto hard = TechniqueTest::draw(technique_shadow_map, s, camera, {128, 96}, light, {{"fit", 0}});
-            size_t grey = 0, different = 0;
-            for (size_t i = 0; i < soft.size(); ++i) {
-                grey += soft[i] != 0.0f && soft[i] != 1.0f;
-                different += std::abs(soft[i] - hard[i]) > 0.5f;
-            }
-            EXPECT_EQ(grey, 0u) << light << ", fusion " << fusion;
-            // the maps differ by the rim that soft methods leave, so that edges fall into other texels
-            EXPECT_LT(different, soft.size() / 100) << light << ", fusion " << fusion;
-        }
+    for (const double fusion : {product, sum, greatest, joined}) expect_hard_shadows(technique_occlusion_textures, {{"fusion", fusion}});
 }
 
 TEST_F(OcclusionTextures, TiltedPlanesDoNotShadowThemselves)

@@ -2,10 +2,7 @@
 // Two blockers that hide 30 % and 70 % of a light, side by side, overlapping and one within the other: in truth 100, 90 and 70 % are
 // hidden. Methods that sample the light's points get that; those that find one depth for all blockers give a wrong value, which follows
 // from their definition.
-#include "technique_fixture.h"
-
-#include <algorithm>
-#include <cmath>
+#include "soft_fixture.h"
 
 extern const gnomon::shadow::TechniqueInfo technique_back_projection, technique_cssm, technique_light_sampling, technique_moment_soft,
     technique_occlusion_textures, technique_pcss, technique_vssm;
@@ -70,16 +67,7 @@ protected:
     static double visible(const shadow::TechniqueInfo& info, const Arrangement& a, const Values& values)
     {
         scene::Scene s = floor_scene(4);
-        for (const Rect& r : {a.upper, a.lower}) {
-            scene::Mesh mesh;
-            const float y = light_height - r.depth;
-            const vec2 lo = r.lo * r.depth, hi = r.hi * r.depth;
-            mesh.positions = {{lo.x, y, lo.y}, {lo.x, y, hi.y}, {hi.x, y, hi.y}, {hi.x, y, lo.y}};
-            mesh.indices = {0, 1, 2, 0, 2, 3};
-            scene::complete(mesh);
-            s.instances.push_back({int(s.meshes.size()), mat4(1)});
-            s.meshes.push_back(mesh);
-        }
+        for (const Rect& r : {a.upper, a.lower}) gpu::add_sheet(s, light_height - r.depth, r.lo * r.depth, r.hi * r.depth);
         return mean(draw(info, s, camera_above(vec3(0), 0.05f, 1e-4f), {2, 2}, square_light, values));
     }
 };
