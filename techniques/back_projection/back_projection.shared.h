@@ -4,6 +4,7 @@
 #include "shaders/n_buffer.shared.h"
 #include "shaders/soft_map.shared.h"
 
+#define SEARCH_MAP 0
 #define RANGES_PYRAMID 0
 #define RANGES_Y_MAP 1
 #define RANGES_MULTISCALE 2

@@ -17,7 +17,6 @@ layout(set = 0, binding = 5) uniform sampler2DArray windows;
 #define PATCHES 0
 #define TRIANGLES 2
 #define MIXED 3
-#define SEARCH_MAP 0
 #define SEARCH_UMBRA 2
 #define LEVELS_WINDOW 0
 
