@@ -29,7 +29,9 @@ void describe(Params& p, Fields& fields)
         "What stands for the casters: a patch for each texel, quads between texel centres, quads with triangles where three of the four "
         "block, or patches of the finest level and quads of coarser ones.");
     fields.choice("accumulate", p.accumulate, {"area", "bitmask8", "bitmask16"},
-        "How hidden parts of the light add up: as areas, or as bits of 8 x 8 or 16 x 16 samples.");
+        "How hidden parts of the light add up: as areas, which want one layer, since a body's near and far side would count twice; or as "
+        "bits of 8 x 8 "
+        "or 16 x 16 samples.");
     fields.choice("gaps", p.gaps, {"none", "neighbours"},
         "Whether a patch reaches to its blocking neighbours left of it and below, where their depths leave a gap; quads have none.");
     fields.choice("search", p.search, {"map", "window", "umbra"},

@@ -2,12 +2,12 @@
 // Every prefiltered map of the registry where parameters meet: windows wider than the map, exponents at the end of what a format holds,
 // maps that hold nothing. conformance_test.cpp takes the ends of one parameter at a time.
 #include "lab/render.h"
+#include "technique_suite.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace gnomon {
 namespace {
@@ -40,21 +40,8 @@ std::vector<const shadow::TechniqueInfo*> filtered_maps()
 const char* const lights[] = {"sun,elevation=55,azimuth=30,angle=0", "spot,position=2/5/1,target=0/0/0,cone=70,radius=0,intensity=40",
     "point,position=2/5/1,radius=0,intensity=40"};
 
-class FilteredMaps : public testing::TestWithParam<const shadow::TechniqueInfo*> {
+class FilteredMaps : public TechniqueSuite<FilteredMaps> {
 protected:
-    static void SetUpTestSuite()
-    {
-        const char* name = std::getenv("GNOMON_DEVICE");
-        device_ = gpu::Device::open({.name = name ? name : "", .validation = true});
-    }
-    static void TearDownTestSuite() { device_.reset(); }
-    void SetUp() override { seen_ = device_->validation_errors().size(); }
-    void TearDown() override
-    {
-        const auto& errors = device_->validation_errors();
-        for (size_t i = seen_; i < errors.size(); ++i) ADD_FAILURE() << errors[i];
-    }
-
     /// A scene on the device, drawn by this test's technique.
     struct Drawer {
         lab::Stage stage;
@@ -108,9 +95,6 @@ protected:
         EXPECT_EQ(first.values, second.values) << text(settings);
         return first;
     }
-
-    inline static std::unique_ptr<gpu::Device> device_;
-    size_t seen_ = 0;
 };
 
 TEST_P(FilteredMaps, WindowsWiderThanTheMap)

@@ -2,11 +2,11 @@
 // Every technique that draws penumbrae, with lights that no scene should have: without a size, larger than the scene, in it, on the floor,
 // turned away, and before maps of a few texels.
 #include "lab/render.h"
+#include "technique_suite.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace gnomon {
 namespace {
@@ -19,21 +19,8 @@ std::vector<const shadow::TechniqueInfo*> soft_techniques()
     return out;
 }
 
-class SoftLights : public testing::TestWithParam<const shadow::TechniqueInfo*> {
+class SoftLights : public TechniqueSuite<SoftLights> {
 protected:
-    static void SetUpTestSuite()
-    {
-        const char* name = std::getenv("GNOMON_DEVICE");
-        device_ = gpu::Device::open({.name = name ? name : "", .validation = true});
-    }
-    static void TearDownTestSuite() { device_.reset(); }
-    void SetUp() override { seen_ = device_->validation_errors().size(); }
-    void TearDown() override
-    {
-        const auto& errors = device_->validation_errors();
-        for (size_t i = seen_; i < errors.size(); ++i) ADD_FAILURE() << errors[i];
-    }
-
     static base::Picture draw(const char* scene, const std::string& light, int map_size)
     {
         const lab::Stage stage = lab::open_stage({.scene = scene, .lights = {light}, .size = {48, 36}});
@@ -53,9 +40,6 @@ protected:
             << scene << " " << light << ", map " << map_size;
         EXPECT_EQ(first.values, second.values) << scene << " " << light;
     }
-
-    inline static std::unique_ptr<gpu::Device> device_;
-    size_t seen_ = 0;
 };
 
 const char* const odd_lights[] = {"sun,elevation=50,angle=0", "spot,position=2/5/1,target=0/0/0,radius=0", "point,position=2/5/1,radius=0",

@@ -10,9 +10,11 @@ extern const gnomon::shadow::TechniqueInfo technique_back_projection;
 namespace gnomon {
 namespace {
 
+using gpu::add_blocker;
 using gpu::add_sheet;
 using gpu::camera_above;
 using gpu::floor_scene;
+using gpu::square_light;
 
 constexpr double area = 0, bitmask8 = 1, bitmask16 = 2;
 constexpr double patches = 0, quads = 1, triangles = 2, mixed = 3;
@@ -20,23 +22,18 @@ constexpr double whole_map = 0, window = 1, umbra = 2;
 constexpr double pyramid = 0, y_map = 1, multiscale = 2;
 constexpr double of_window = 0, of_casters = 1; // levels
 
-/// What the light, 4 m above the origin, shows of a sheet at `height` there covers this of the light.
-void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi) { add_sheet(s, height, lo * (height / 4), hi * (height / 4)); }
-
-constexpr const char* square_light = "rect,position=0/4/0,target=0/0/0,width=1,height=1";
 constexpr const char* disk_light = "disk,position=0/4/0,target=0/0/0,radius=0.5";
 
-class BackProjection : public gpu::TechniqueTest {
+class BackProjection : public gpu::SoftTest {
 protected:
     static std::vector<float> draw(
         const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values)
     {
         return TechniqueTest::draw(technique_back_projection, s, camera, size, light, values);
     }
-    /// At the origin.
     static double at_origin(const scene::Scene& s, const char* light, const Values& values)
     {
-        return mean(draw(s, camera_above({0, 0, 0}, 0.05f, 1e-4f), {2, 2}, light, values));
+        return SoftTest::at_origin(technique_back_projection, s, light, values);
     }
 };
 

@@ -23,6 +23,10 @@ inline void add_sheet(scene::Scene& s, float height, vec2 lo, vec2 hi)
     s.meshes.push_back(mesh);
 }
 
+/// A panel 4 m above the origin, and a sheet that hides the part [lo, hi] of what the origin sees of it, metres about its centre.
+inline constexpr const char* square_light = "rect,position=0/4/0,target=0/0/0,width=1,height=1";
+inline void add_blocker(scene::Scene& s, float height, vec2 lo, vec2 hi) { add_sheet(s, height, lo * (height / 4), hi * (height / 4)); }
+
 /// A sheet one metre above the floor over x < 0, wider than the penumbrae are.
 inline scene::Scene half_plane()
 {
@@ -34,6 +38,11 @@ inline scene::Scene half_plane()
 /// What every soft technique is held to.
 class SoftTest : public TechniqueTest {
 protected:
+    static double at_origin(const shadow::TechniqueInfo& info, const scene::Scene& s, const char* light, const Values& values)
+    {
+        return mean(draw(info, s, camera_above({0, 0, 0}, 0.05f, 1e-4f), {2, 2}, light, values));
+    }
+
     /// The largest error across the penumbra of half_plane(), 0.4 m to each side of x = 0, at 128 points.
     static double half_plane_error(const shadow::TechniqueInfo& info, const char* light, const Values& values)
     {
