@@ -117,3 +117,12 @@ TEST(WarpParameter, pseudo_near_plane_has_the_least_storage_factor)
             EXPECT_LE(storage(n, d), storage(n * factor, d) * 1.0001) << d << " " << factor;
     }
 }
+
+TEST(WarpParameter, trapezoid_gives_the_focus_its_share)
+{
+    for (const double focus : {1.0, 5.0, 30.0}) {
+        const double n = trapezoid_near(focus, 50.0, 0.8);
+        EXPECT_NEAR((n + 50.0) * focus / ((n + focus) * 50.0), 0.8, 1e-12);
+    }
+    EXPECT_TRUE(std::isinf(trapezoid_near(40.0, 50.0, 0.8)));
+}

@@ -46,6 +46,12 @@ double pseudo_near(double z0, double z1, double extent, double from, double to)
     return extent / depth * std::max(z0 + std::sqrt(nearest * furthest), d / (2.0 - 3.0 * d / depth));
 }
 
+double trapezoid_near(double focus, double extent, double share)
+{
+    // t(v) = (n + extent) v / ((n + v) extent), solved for n at t(focus) = share
+    return focus < share * extent ? extent * focus * (1.0 - share) / (share * extent - focus) : uniform;
+}
+
 double warp_near(const WarpLine& line, double gamma, double half_fov)
 {
     return std::max(near_from_eta(falloff(gamma, half_fov), line.z0, line.z1, line.extent),

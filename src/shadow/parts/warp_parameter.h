@@ -26,12 +26,16 @@ double near_from_eta(double eta, double z0, double z1, double extent);
 /// Far pseudo near planes, d = from - z0, have the least storage factor at d / (2 - 3 d / (z1 - z0)), and none at all from 2/3 of the way.
 double pseudo_near(double z0, double z1, double extent, double from, double to);
 
-/// All of these: the weaker warp of what the tilt bears and what the depths ask for.
+/// The near plane that gives the first `focus` of the line a share of the map (Martin, Tan 2004, "Anti-aliasing and continuity with
+/// trapezoidal shadow maps", whose share is 0.8).
+double trapezoid_near(double focus, double extent, double share);
+
 struct WarpLine {
     double z0, z1, extent;
     double from, to; ///< depths that count; z0 and z1 where all do
 };
 
+/// The weaker warp of what the tilt bears and what the depths ask for.
 double warp_near(const WarpLine&, double gamma, double half_fov);
 
 } // namespace gnomon::shadow::parts
