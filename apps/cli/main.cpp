@@ -108,7 +108,8 @@ int run(int argc, char** argv)
     render_app
         ->add_option("--aov", render.aovs,
             "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, "
-            "primitive, position, motion")
+            "primitive, position, motion; of the technique's map, pixels per texel: texel_footprint, texel_footprint_perspective, "
+            "texel_footprint_projection")
         ->delimiter(',');
     render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")
         ->check(CLI::Range(1, 4096))
