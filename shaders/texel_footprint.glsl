@@ -17,9 +17,9 @@ struct TexelFootprint {
 // Towards the light at p: the direction along which the map's uv stay as they are.
 vec3 map_ray(LightMapLayer layer, vec3 p_world)
 {
-    const mat4 rows = transpose(layer.map_from_world);
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
-    const vec3 ray = cross(rows[0].xyz * h.w - rows[3].xyz * h.x, rows[1].xyz * h.w - rows[3].xyz * h.y);
+    const vec2 uv = h.xy / h.w;
+    const vec3 ray = cross(gradient_of_uv(layer, 0, uv), gradient_of_uv(layer, 1, uv));
     return normalize(dot(ray, layer.depth_plane.xyz) > 0.0 ? -ray : ray);
 }
 
@@ -41,10 +41,10 @@ TexelFootprint texel_footprint(View view, LightMapLayer layer, float size, vec3 
     const float facing = dot(n, ray);
     vec2 on_surface[2], on_beam[2];
     for (int i = 0; i < 2; ++i) {
-        const vec3 across = view.world_from_clip[i].xyz * (2.0 * w / view.size[i]);
-        const vec3 surface = across - ray * (dot(n, across) / (abs(facing) < 1e-6 ? 1e-6 : facing));
+        const vec3 step_across = view.world_from_clip[i].xyz * (2.0 * w / view.size[i]);
+        const vec3 surface = step_across - ray * (dot(n, step_across) / (abs(facing) < 1e-6 ? 1e-6 : facing));
         // across the eye's beam, then turned with the shortest rotation that takes -ray to to_map
-        const vec3 beam = across - ray * dot(ray, across);
+        const vec3 beam = step_across - ray * dot(ray, step_across);
         const float both = 1.0 - dot(ray, to_map);
         const vec3 turned = both < 1e-6 ? beam : beam - (to_map - ray) * (dot(to_map, beam) / both);
         const vec4 a = layer.map_from_world * vec4(surface, 0.0), b = layer.map_from_world * vec4(turned, 0.0);
