@@ -47,20 +47,14 @@ shaders::LightMapLayer stable_layer(
     return orthographic_layer(axes, glm::floor(centre / texel + 0.5f) * texel, extent, depths, depths, settings.size);
 }
 
-/// Each layer as lispsm has it. All or none: they are drawn by one program.
+/// Each layer as lispsm has it; false where that is none. What a warp does not suit is drawn with the others, by one program.
 bool warp_cascades(
     shaders::LightMap& map, const scene::View& view, const std::vector<std::vector<vec3>>& slices, const LightMapSettings& settings)
 {
-    std::vector<shaders::LightMapLayer> layers;
     bool any = false;
-    for (size_t i = 0; i < slices.size(); ++i) {
-        auto layer = warped_layer(map.layers[i], view, slices[i], settings);
-        any = any || layer;
-        if (!layer) layer = turned_layer(map.layers[i], view, slices[i], settings);
-        if (!layer) return false;
-        layers.push_back(*layer);
-    }
-    if (any) std::copy(layers.begin(), layers.end(), map.layers);
+    for (size_t i = 0; i < slices.size(); ++i)
+        if (const auto layer = warped_layer(map.layers[i], view, slices[i], settings)) map.layers[i] = *layer, any = true;
+    for (size_t i = 0; any && i < slices.size(); ++i) map.layers[i].warped = 1;
     return any;
 }
 

@@ -269,6 +269,20 @@ std::optional<Rows> view_of_cube(
     return Rows{seen_along(x), seen_along(y), seen_along(axis)};
 }
 
+/// The storage factor, but for a factor: the widest texels over the widths of pixels at their depth, in u times in v (Lloyd 2007), at the
+/// corners of what is seen. The falloff knows nothing of what turning the map to the view's image costs.
+double storage_factor(const shaders::LightMapLayer& layer, const scene::View& view, const std::vector<vec3>& points)
+{
+    const Rows rows = rows_of(layer);
+    dvec2 largest(0.0);
+    for (const vec3 p : points)
+        for (int k = 0; k < 2; ++k) {
+            const double wide = 1.0 / glm::length(across(gradient(rows, k, p), dvec3(layer.depth_plane)));
+            largest[k] = std::max(largest[k], wide / std::max(depth_in(view, p), double(view.near)));
+        }
+    return largest.x * largest.y;
+}
+
 /// Where the rays of a perspective layer meet.
 vec3 apex(const shaders::LightMapLayer& layer)
 {
@@ -292,16 +306,12 @@ std::optional<shaders::LightMapLayer> warped_layer(
     } else {
         rows = frustum_across(focused, view, receivers, settings);
     }
-    return rows ? fit_rectangle(*rows, focused, receivers, settings) : std::nullopt;
-}
-
-std::optional<shaders::LightMapLayer> turned_layer(
-    const shaders::LightMapLayer& focused, const scene::View& view, const std::vector<vec3>& receivers, const LightMapSettings& settings)
-{
-    Rows rows;
-    if (receivers.empty()) return {};
-    if (!turn(rows, focused, view, receivers)) rows = rows_of(focused);
-    return fit_rectangle(rows, focused, receivers, settings);
+    std::optional<shaders::LightMapLayer> layer;
+    if (rows) layer = fit_rectangle(*rows, focused, receivers, settings);
+    const bool held = Fit(settings.fitting.fit) != Fit::psm && Fit(settings.fitting.fit) != Fit::tsm
+        && Falloff(settings.fitting.warp) == Falloff::lloyd;
+    if (layer && held && storage_factor(*layer, view, receivers) > storage_factor(focused, view, receivers)) return {};
+    return layer;
 }
 
 } // namespace gnomon::shadow::parts
