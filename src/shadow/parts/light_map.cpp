@@ -128,6 +128,7 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
 {
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
+    if (frame.light_map) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
     draw_light_layers(passes, frame, out.constants, settings, out.depth);
     return out;
