@@ -72,11 +72,12 @@ Score compare(const std::string& scene_name, const std::string& camera, const st
 
 TEST(TexelFootprint, ImagesAreTheJacobian)
 {
-    const size_t fits = shadow::technique("shadow_map").params().find("fit")->choices.size();
+    const std::vector<std::string> fits = shadow::technique("shadow_map").params().find("fit")->choices;
     for (const char* scene : {"tilted_planes", "terrain", "balls"})
         for (const char* camera : {"", "fit,ortho=4"}) {
-            for (size_t fit = 0; fit < fits; ++fit) {
-                SCOPED_TRACE(std::string(scene) + " " + camera + ", fit " + std::to_string(fit));
+            for (size_t fit = 0; fit < fits.size(); ++fit) {
+                if (fits[fit] == "sdsm") continue; // its layers are known to the device alone
+                SCOPED_TRACE(std::string(scene) + " " + camera + ", " + fits[fit]);
                 const Score s = compare(scene, camera, "sun,elevation=40,azimuth=120,angle=0", int(fit));
                 EXPECT_GT(s.shown, 1000u);
                 EXPECT_LE(s.wrong, s.shown / 200);
