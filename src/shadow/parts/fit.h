@@ -27,8 +27,9 @@ shaders::LightMapLayer fit_parallel_layer(
 
 /// Where each of `count` cascades ends between `near` and `far`, along the view: `split` = 0 gives them one length, 1 one ratio (the
 /// optimum for a plane through the view's axis that the light grazes), and between is the mean so weighted (Zhang, Sun, Xu, Lun 2006,
-/// "Parallel-split shadow maps", equation 4).
-std::vector<float> cascade_ends(float near, float far, int count, float split);
+/// "Parallel-split shadow maps", equation 4). One ratio counts from `nearest`, where that is further off than `near`: from there on there
+/// is something to see, and cascades would lie before it (Lloyd 2007, section 5.1.8). The first still begins at `near`.
+std::vector<float> cascade_ends(float near, float far, int count, float split, float nearest = 0.0f);
 
 /// A layer for each cascade.
 void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 direction, const LightMapSettings&);

@@ -95,6 +95,8 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
     fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` is cascades.");
     fields.real("cascade_split", p.split, {0, 1}, "",
         "Cascades' ends: 0, each as long as the others; 1, each the same multiple of the one before; between.");
+    fields.real("cascade_near", p.nearest, {0, 1000}, "m", "Cascades of one ratio begin no nearer to the eye: nothing is seen before.");
+    fields.real("cascade_blend", p.blend, {0, 1}, "", "The end of each cascade's length over which it is blended into the next.");
     fields.flag("stable_cascades", p.stable,
         "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
         "waste "
