@@ -197,8 +197,10 @@ shaders::LightMap fit_light_map(
     map.size = float(settings.size);
     map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
-        if (Fit(settings.fitting.fit) == Fit::cascades) {
-            fit_cascades(map, bounds, view, sun->direction, settings);
+        if (Fit(settings.fitting.fit) == Fit::cascades || Fit(settings.fitting.fit) == Fit::sdsm) {
+            LightMapSettings as = settings;
+            if (Fit(settings.fitting.fit) == Fit::sdsm) as.fitting.stable = 0;
+            fit_cascades(map, bounds, view, sun->direction, as);
             return map;
         }
         const std::vector<vec3> casters = corners(bounds);

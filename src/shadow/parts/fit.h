@@ -46,9 +46,9 @@ struct PointFit {
 PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings&);
 
 /// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
-/// `depth`'s. With `before`, only what lies behind the depths of that image.
-void draw_light_layers(
-    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth, gpu::ImageId before = {});
+/// `depth`'s. With `before`, only what lies behind the depths of that image. `fitted`: as LightMap::fitted.
+void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
+    gpu::ImageId before = {}, gpu::BufferId fitted = {});
 
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
