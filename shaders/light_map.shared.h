@@ -19,6 +19,8 @@ struct FitParams {
     int warp DEFAULT(0); ///< parts::Falloff
     float warp_near DEFAULT(0.0f); ///< lispsm: of the depths seen, the nearest part that may do with coarser texels
     float psm_slide DEFAULT(0.02f); ///< of the depths seen: how far behind the eye psm looks from
+    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
+    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
 };
 
 /// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth. A light's ray
@@ -44,6 +46,7 @@ struct LightMap {
     mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
                ///< along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
+    vec4 bands[2]; ///< and where the band before it begins, in which it is blended into the next
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
 };
 

@@ -102,6 +102,10 @@ void check_bound(const Bound& bound, std::span<const Listed<Image, ImageDesc>> i
     if (bound.constants.bytes.size() != program.constants_bytes)
         wrong(fmt::format("the constants have {} bytes and the shader's block has {} (0 also where the shader uses none of it)",
             bound.constants.bytes.size(), program.constants_bytes));
+    for (const Constants::Patch& p : bound.constants.patches)
+        if (p.source.index >= buffer_count || uint64_t(p.offset) + p.bytes > bound.constants.bytes.size()
+            || (p.source_offset | p.offset | p.bytes) % 4 != 0)
+            wrong("a patch of the constants lies outside of them, is no multiple of 4 or comes from no buffer of this list");
     if (program.textures && !bound.textures) wrong("the shader uses the texture table, and the pass gives none");
 }
 

@@ -6,6 +6,8 @@
 #include "shadow/parts/light_map.h"
 #include "shadow/technique.h"
 
+#include <cstddef>
+
 namespace gnomon::techniques::shadow_map {
 
 namespace {
@@ -52,8 +54,8 @@ private:
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest)
                     .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
-                map.constants, params},
+            .constants = parts::with_map(ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
+                map.constants, params}, map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
 

@@ -27,19 +27,21 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         for (const auto fit : {shadow::parts::Fit::uniform, shadow::parts::Fit::focused, shadow::parts::Fit::cascades}) {
             const auto format = fit == shadow::parts::Fit::focused ? shadow::parts::DepthFormat::d16 : shadow::parts::DepthFormat::d32;
             const shaders::LightMap map = shadow::parts::fit_light_map(
-                {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}, .format = format});
+                {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit), .blend = 0.5f}, .format = format});
             for (int i = 0; i < 300; ++i) {
                 const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
                 cases.push_back({map, p});
             }
         }
     const auto results = gpu::run_glsl_cases<shaders::MapResult>(device(), "tests/gpu/light_map.comp", cases);
-    size_t inside = 0;
+    size_t inside = 0, in_bands = 0;
     for (size_t i = 0; i < cases.size(); ++i) {
         const shaders::LightMap& map = cases[i].map;
         const shaders::MapResult& r = results[i];
         SCOPED_TRACE(i);
         ASSERT_EQ(r.layer, tests::select_layer(map, cases[i].p_world));
+        ASSERT_NEAR(double(r.next), tests::next_share(map, cases[i].p_world), 1e-4);
+        in_bands += r.next > 0.0f ? 1 : 0;
         const shaders::LightMapLayer& layer = map.layers[r.layer];
         const tests::MapPoint m = tests::project(layer, cases[i].p_world);
         ASSERT_NEAR(double(r.depth), m.depth, 1e-5 * double(layer.far));
@@ -60,6 +62,7 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     }
     EXPECT_GT(inside, cases.size() / 2);
     EXPECT_LT(inside, cases.size() - 200);
+    EXPECT_GT(in_bands, 10u);
 }
 
 } // namespace
