@@ -141,8 +141,9 @@ bool turn(Rows& rows, const shaders::LightMapLayer& focused, const scene::View& 
     if (from.z < least_w) from += step * ((least_w - from.z) / step.z);
     if (to.z < least_w) to = from + step * ((least_w - from.z) / step.z);
     const dvec2 eye = dvec2(from) / from.z, along = dvec2(to) / to.z - eye;
-    // parallel projections of length sin(angle) are there down to rounding
     if (!(glm::length(along) > 1e-6)) return false;
+    // within a degree of a parallel light the image's direction is chance, and the warp for nothing
+    if (focused.perspective == 0 && glm::length(glm::cross(dvec3(focused.depth_plane), dvec3(forward_of(view)))) < 0.02) return false;
     const dvec2 t = glm::normalize(along), s(t.y, -t.x);
     const double s0 = glm::dot(s, eye), t0 = glm::dot(t, eye);
     rows = {s.x * plain[0] + s.y * plain[1] - s0 * plain[2], t.x * plain[0] + t.y * plain[1] - t0 * plain[2], plain[2]};
