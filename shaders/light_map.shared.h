@@ -32,7 +32,8 @@ struct LightMapLayer {
     float near; ///< metres along the axis where stored z = 1
     float far; ///< where stored z = 0
     uint perspective; ///< 0 or 1: stored z is affine in linear depth, or in its inverse
-    uint warped; ///< 0 or 1: map_from_world's third row is not the stored depth, which fragments write, and texels differ in width
+    uint warped; ///< 0 or 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
+                 ///< where it is least of all that is seen
     float texel_uv; ///< width of a texel in uv
 };
 
