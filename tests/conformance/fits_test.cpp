@@ -32,14 +32,15 @@ TEST_P(Fits, CascadesAreNearerToTheTruthThanOneLayer)
         .lights = {GetParam()->soft ? "sun,elevation=35,azimuth=60,angle=1" : "sun,elevation=35,azimuth=60,angle=0"},
         .size = {240, 135}};
     const std::string map = id + ":map_size=256:fit=";
-    options.techniques = {map + "focused", map + "cascades:stable_cascades=0", map + "cascades:stable_cascades=1"};
+    options.techniques = {map + "focused", map + "cascades:stable_cascades=0", map + "cascades:stable_cascades=1", map + "sdsm"};
     options.truth_samples = GetParam()->soft ? 16 : 1;
     options.repeats = 1;
     const lab::Comparison result = lab::compare(*device, options);
-    ASSERT_EQ(result.runs.size(), 3u);
+    ASSERT_EQ(result.runs.size(), 4u);
     const auto error = [&](size_t run) { return result.runs[run].metrics.at("mae"); };
     EXPECT_LT(error(1), 0.8 * error(0));
     EXPECT_LT(error(2), 0.9 * error(0));
+    EXPECT_LT(error(3), 1.02 * error(1));
     EXPECT_TRUE(device->validation_errors().empty());
 }
 
