@@ -56,8 +56,8 @@ Recorder::Recorder(Context& c, ListData& list, Submission& submission, VkCommand
     for (const auto& pass : list.passes)
         if (const Constants* k = constants_of(pass)) bytes += aligned(k->bytes.size(), c.properties.limits.minUniformBufferOffsetAlignment);
     if (bytes)
-        submission.constants = c.transients.take(
-            {std::bit_ceil(std::max<uint64_t>(bytes, 4096)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::upload, "constants"});
+        submission.constants = c.transients.take({std::bit_ceil(std::max<uint64_t>(bytes, 4096)),
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::upload, "constants"});
 }
 
 Image& Recorder::image(ImageId id) const

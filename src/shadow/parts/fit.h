@@ -52,16 +52,22 @@ struct PointFit {
 /// its axis, else those faces of a cube that the hull may touch.
 PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings&);
 
-/// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
-/// `depth`'s. With `before`, only what lies behind the depths of that image. `fitted`: as LightMap::fitted.
+/// What the GPU has found out about a map's layers; invalid where the CPU has.
+struct OnGpu {
+    gpu::BufferId fitted{}; ///< as LightMap::fitted
+    gpu::BufferId commands{}; ///< as cull_casters (parts/cull.h) writes
+};
+
+/// Draws opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
+/// `depth`'s. With `before`, only what lies behind the depths of that image.
 void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
-    gpu::ImageId before = {}, gpu::BufferId fitted = {});
+    gpu::ImageId before = {}, OnGpu = {});
 
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
-/// of `pass`, and the constants begin with clip_from_world for each layer.
-void draw_casters(
-    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass, const gpu::Program& masked);
+/// of `pass`, and the constants begin with clip_from_world for each layer. `commands`: as OnGpu.
+void draw_casters(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass,
+    const gpu::Program& masked, gpu::BufferId commands = {});
 
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);

@@ -18,6 +18,9 @@ enum class Fit : int { uniform, focused, cascades, psm, lispsm, tsm, cascades_wa
 /// How a warp fades where the light shines along the view (warp_parameter.h).
 enum class Falloff : int { lloyd, sine };
 enum class DepthFormat : int { d32, d16 };
+/// Which casters are drawn: all; those whose bounds touch a layer; of these, under a sun, those between it and a receiver that is seen
+/// (parts/cull.h). Pictures are the same.
+enum class Culling : int { none, frustum, receivers };
 
 struct LightMapSettings {
     int size = 1024; ///< texels a side, each layer
@@ -25,6 +28,8 @@ struct LightMapSettings {
     DepthFormat format = DepthFormat::d32;
     float slope_bias = 0.0f; ///< polygon offset factor, applied by the hardware while drawing (factor * max |dz/dx|, |dz/dy|)
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    Culling culling = Culling::frustum;
+    float offset_texels = 0.0f; ///< by which receivers are moved across the map at most before they look into it: for Culling::receivers
     float guard_texels = 1.5f; ///< filter radius plus 1: layers are drawn that much wider, so that no filter runs over a rim
 };
 

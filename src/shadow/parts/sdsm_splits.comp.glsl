@@ -8,12 +8,13 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 0, scalar) buffer Fitted { FittedMap fitted; };
 layout(set = 1, binding = 0, scalar) uniform Constants { SdsmFit c; };
 
+// Of one ratio, where cascades of a view with a horizon are concerned: with both ends known that is the best of all (cascade_split = 1).
 float cascade_end(float near, float far, int i)
 {
-    const float part = float(i) / float(c.fallback.layer_count), even = near + part * (far - near);
-    if (c.near == 0.0 || c.fitting.split == 0.0) return even;
+    const float part = float(i) / float(c.fallback.layer_count);
+    if (c.near == 0.0) return near + part * (far - near);
     const float nearest = clamp(c.fitting.nearest, near, far);
-    return mix(even, nearest * pow(far / nearest, part), c.fitting.split);
+    return nearest * pow(far / nearest, part);
 }
 
 void main()

@@ -32,8 +32,8 @@ SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::
     return out;
 }
 
-void resolve_soft(gpu::PassList& passes, const Frame& frame, const LightMap& map, std::string_view shader, std::span<const gpu::SpecConstant> spec,
-    gpu::Constants constants, std::vector<gpu::Binding> more)
+void resolve_soft(gpu::PassList& passes, const Frame& frame, const LightMap& map, std::string_view shader,
+    std::span<const gpu::SpecConstant> spec, gpu::Constants constants, std::vector<gpu::Binding> more)
 {
     gpu::FullscreenPass pass;
     pass.name = "resolve";
