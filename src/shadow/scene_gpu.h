@@ -55,7 +55,6 @@ public:
         Second second = Second::none; ///< what stream 1 holds
         const vec3* back_to_front_of = nullptr; ///< sorts instances by the distance of their centres from this eye
         uint32_t layer = 0; ///< < 256; reaches the vertex shader in the top byte of gl_InstanceIndex (shaders/scene.glsl)
-        bool pulled = false; ///< three vertices a triangle and no streams: gl_VertexIndex / 3 is the triangle of the instance's mesh
     };
     /// Draw calls for the chosen triangles inside a raster pass; returns the triangles sent.
     uint64_t draw(gpu::Encoder&, const DrawOptions&);

@@ -12,7 +12,7 @@ TECHNIQUE_BEGIN(alias_free)
 
 struct Params {
     int samples DEFAULT(0); ///< index into 1, 8, 32
-    int grid DEFAULT(256);
+    int grid DEFAULT(512);
     int grid_fit DEFAULT(1); ///< parts::Fit
 };
 
@@ -28,8 +28,22 @@ struct GridLevel {
 struct Grid {
     uint levels;
     uint cells; ///< of one layer
-    vec2 padding;
+    vec2 image; ///< width and height of the image of cells
     GridLevel level[GRID_MAX_LEVELS];
+};
+
+/// Some triangles of one instance, for a group of a compute pass.
+struct CasterBlock {
+    uint slot; ///< of the instance
+    uint first, count; ///< triangles of its mesh
+    uint masked; ///< 0 or 1
+};
+#define CASTER_BLOCK 64
+
+/// A triangle that covers many cells of a level of a layer.
+struct WideCaster {
+    uint slot, triangle, masked;
+    uint place; ///< layer + 8 level
 };
 
 struct GridConstants {
@@ -37,6 +51,8 @@ struct GridConstants {
     Light light;
     LightMap map;
     Grid grid;
+    uint blocks; ///< of casters
+    uint wide; ///< room for as many wide casters
 };
 
 SHARED_END

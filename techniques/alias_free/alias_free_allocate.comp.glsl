@@ -15,11 +15,16 @@ layout(set = 0, binding = 0, scalar) buffer Cells
     uint used[8 * GRID_MAX_LEVELS];
     Cell cells[];
 };
+layout(set = 0, binding = 1, scalar) writeonly buffer Draw { uint vertices, instance_count, first_vertex, first_instance; };
 layout(set = 1, binding = 0, scalar) uniform Constants { uint count; };
 
 void main()
 {
-    const uint i = gl_GlobalInvocationID.x;
+    const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    if (i == 0) {
+        vertices = first_vertex = first_instance = 0;
+        instance_count = 1;
+    }
     const uint own = i < count ? cells[i].count : 0;
     const uint all = subgroupAdd(own);
     if (all == 0) return;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_ALIAS_FREE_COVER_GLSL
+#define GNOMON_ALIAS_FREE_COVER_GLSL
+
 // Conservative rasterisation without the extension: a triangle that covers the centres of all cells that a caster touches. More of
 // them cost time, and change nothing, since every sample is tested exactly.
+
+const vec4 nowhere = vec4(-2.0, -2.0, 0.0, 1.0);
 
 // Three corners around the box from `low` to `high` in axes x, y (orthonormal).
 vec2 cover_box(vec2 low, vec2 high, vec2 x, vec2 y, uint corner)
@@ -46,72 +51,89 @@ vec2 cover_triangle(vec2 q[3], float grow, uint corner)
     return q[corner] + vec2(offset.x * m.y - offset.y * n.y, offset.y * n.x - offset.x * m.x) / det;
 }
 
-vec4 from_cells(vec2 q, GridLevel level, float z) { return vec4(q / float(level.side) * 2.0 - 1.0, z, 1.0); }
+// Where the light sees a triangle, in cells of one level.
+struct Seen {
+    vec2 q0, q1, q2; // its corners, where it is `whole`
+    bool whole; // all of it lies before the light's eye
+    vec2 low, high; // a box around it
+    float z; // stored depth of its nearest corner
+    float rounding; // of all these coordinates
+};
 
-const vec4 nowhere = vec4(-2.0, -2.0, 0.0, 1.0);
-
-// Of a triangle that reaches beside or behind the light: the box of its part further along the layer's axis than `behind`, where only
-// what is within three times that of the light can be seen by any sample.
-vec4 cover_clipped(vec4 h[3], GridLevel level, float behind, float grow, float z, uint corner)
+// Of a triangle that reaches beside or behind the light: the box of its part further along the layer's axis than `behind`. What is
+// nearer can be seen by a sample only within three times that of the light, and then it may be seen anywhere.
+void see_clipped(inout Seen s, vec4 h[3], vec3 p[3], float height, float behind)
 {
-    vec2 low = vec2(1e30), high = vec2(-1e30);
+    s.low = vec2(1e30);
+    s.high = vec2(-1e30);
     for (int k = 0; k < 3; ++k) {
         const vec4 a = h[k], b = h[(k + 1) % 3];
         if (a.w >= behind) {
-            low = min(low, a.xy / a.w);
-            high = max(high, a.xy / a.w);
+            s.low = min(s.low, a.xy / a.w);
+            s.high = max(s.high, a.xy / a.w);
         }
         if ((a.w >= behind) != (b.w >= behind)) {
             const vec2 cut = mix(a.xy, b.xy, (behind - a.w) / (b.w - a.w)) / behind;
-            low = min(low, cut);
-            high = max(high, cut);
+            s.low = min(s.low, cut);
+            s.high = max(s.high, cut);
         }
     }
-    const vec2 rim = vec2(grow + 4e-3 * level.scale), side = vec2(float(level.side));
-    low = max(low * level.scale - rim, vec2(0.0));
-    high = min(high * level.scale + rim, side);
-    if (any(greaterThanEqual(low, high))) return nowhere;
-    return from_cells(cover_box(low, high, vec2(1, 0), vec2(0, 1), corner), level, z);
+    s.rounding = 4e-3;
+    const vec3 gap = max(max(min(p[0], min(p[1], p[2])) - c.light.position, c.light.position - max(p[0], max(p[1], p[2]))), vec3(0.0));
+    if (height < 4.0 * behind && max(gap.x, max(gap.y, gap.z)) < 4.0 * behind) {
+        s.low = vec2(0.0);
+        s.high = vec2(1.0);
+    }
 }
 
-// `height`: of the light above the triangle's plane.
-vec4 covering_vertex(LightMapLayer layer, uint level_index, vec3 p[3], float height, uint corner)
+// In units of the map's width. `height`: of the light above the triangle's plane.
+Seen see_triangle(LightMapLayer layer, vec3 p[3], float height)
 {
-    const GridLevel level = c.grid.level[level_index];
+    Seen s;
     const bool perspective = layer.perspective != 0;
     const float behind = perspective ? 1e-4 * layer.far : 0.0;
-    vec4 h[3];
-    float nearest = 1e30, furthest = -1e30, z = 0.0;
-    vec3 extent = abs(perspective ? c.light.position : p[0]), low = p[0], high = p[0];
-    for (int k = 0; k < 3; ++k) {
-        h[k] = layer.map_from_world * vec4(p[k], 1.0);
-        nearest = min(nearest, h[k].w);
-        furthest = max(furthest, h[k].w);
-        z = max(z, h[k].w > behind ? h[k].z / h[k].w : 1.0);
-        extent = max(extent, abs(p[k]));
-        low = min(low, p[k]);
-        high = max(high, p[k]);
+    const vec4 h[3] = vec4[](layer.map_from_world * vec4(p[0], 1.0), layer.map_from_world * vec4(p[1], 1.0), layer.map_from_world * vec4(p[2], 1.0));
+    s.z = 0.0;
+    for (int k = 0; k < 3; ++k) s.z = max(s.z, h[k].w > behind ? h[k].z / h[k].w : 1.0);
+    s.z = min(s.z, 1.0);
+    const float nearest = min(h[0].w, min(h[1].w, h[2].w));
+    s.whole = nearest > behind;
+    s.q0 = s.q1 = s.q2 = vec2(0.0);
+    if (!s.whole) {
+        see_clipped(s, h, p, height, behind);
+        return s;
     }
-    if (perspective && furthest <= 0.0) return nowhere;
-    z = min(z, 1.0);
-    const vec4 everywhere = vec4(corner == 1 ? 3.0 : -1.0, corner == 2 ? 3.0 : -1.0, z, 1.0);
-    // the last level's one cell lists footprints of any extent
-    if (SAMPLES > 1 && level_index + 1 == c.grid.levels) return everywhere;
-    // Cells half a width each way, footprints as much again, 1/8 for the rasteriser's grid and the samples' rounding.
-    float grow = SAMPLES > 1 ? 1.125 : 0.625;
-    if (nearest <= behind) {
-        const vec3 gap = max(max(low - c.light.position, c.light.position - high), vec3(0.0));
-        if (height < 4.0 * behind && max(gap.x, max(gap.y, gap.z)) < 4.0 * behind) return everywhere;
-        return cover_clipped(h, level, behind, grow, z, corner);
-    }
-    // and for the rounding of coordinates far outside of the map or from the world's origin
-    vec2 q[3];
-    float outside = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        q[k] = h[k].xy / h[k].w * level.scale;
-        outside = max(outside, max(abs(q[k].x), abs(q[k].y)));
-    }
+    s.q0 = h[0].xy / h[0].w;
+    s.q1 = h[1].xy / h[1].w;
+    s.q2 = h[2].xy / h[2].w;
+    s.low = min(s.q0, min(s.q1, s.q2));
+    s.high = max(s.q0, max(s.q1, s.q2));
+    // of coordinates far outside of the map, and far from the world's origin
+    const vec3 extent = max(max(abs(p[0]), abs(p[1])), max(abs(p[2]), perspective ? abs(c.light.position) : vec3(0.0)));
     const float width = layer.texel_metres * c.map.size * nearest; // w is 1 where the layer is orthographic
-    grow += 1e-6 * (outside + max(extent.x, max(extent.y, extent.z)) / width * level.scale);
-    return from_cells(cover_triangle(q, grow, corner), level, z);
+    const vec2 outside = max(abs(s.low), abs(s.high));
+    s.rounding = 1e-6 * (max(outside.x, outside.y) + max(extent.x, max(extent.y, extent.z)) / width);
+    return s;
 }
+
+// How far, in cells, a triangle may lie from the cell of a sample that it darkens: half a cell where that is a footprint, whose middle's
+// cell it is.
+float reach_of(Seen s, GridLevel level) { return (SAMPLES > 1 ? 0.5 : 0.0) + 0.02 + s.rounding * level.scale; }
+
+vec4 covering_vertex(LightMapLayer layer, GridLevel level, vec3 p[3], float height, uint corner)
+{
+    const Seen s = see_triangle(layer, p, height);
+    // half a cell and the rasteriser's grid more: a fragment is where a cell's centre is covered
+    const float grow = 0.55 + reach_of(s, level);
+    vec2 at;
+    if (s.whole) {
+        at = cover_triangle(vec2[](s.q0 * level.scale, s.q1 * level.scale, s.q2 * level.scale), grow, corner);
+    } else {
+        const vec2 side = vec2(float(level.side));
+        const vec2 low = clamp(s.low * level.scale - grow, vec2(0.0), side), high = clamp(s.high * level.scale + grow, vec2(0.0), side);
+        at = cover_box(low, high, vec2(1, 0), vec2(0, 1), corner);
+    }
+    return vec4((level.corner + at) / c.grid.image * 2.0 - 1.0, s.z, 1.0);
+}
+
+#endif

@@ -24,6 +24,5 @@ void main()
     gl_FragDepth = 1.0;
     if (any(greaterThanEqual(gl_FragCoord.xy - l.corner, vec2(float(l.side)))) || any(lessThan(gl_FragCoord.xy, l.corner))) return;
     const uint code = cells[uint(layer) * grid.cells + l.first + xy.y * l.side + xy.x].furthest;
-    // less what rounding takes from depths of up to a million times the range
-    if (code != 0) gl_FragDepth = clamp(furthest_z(code) * (1.0 - 1e-4) - 1e-6, 0.0, 1.0);
+    if (code != 0) gl_FragDepth = reach_z(code);
 }

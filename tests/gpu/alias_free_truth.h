@@ -53,7 +53,7 @@ public:
         if (facing < 0) return Verdict::dark;
         Verdict result = Verdict::lit;
         for (size_t i = 0; i < triangles_.size(); ++i) {
-            if (i == own) continue;
+            if (i == own || in_plane(triangles_[own], triangles_[i])) continue; // it lies beside, not before
             const Verdict one = behind(triangles_[i], p);
             if (one == Verdict::dark) return one;
             if (one == Verdict::unknown) result = one;
@@ -63,12 +63,20 @@ public:
 
     dvec3 to_light(dvec3 p) const
     {
-        if (light_.kind() == scene::LightKind::directional) return -glm::normalize(dvec3(std::get<scene::DirectionalLight>(light_.shape).direction));
+        if (light_.kind() == scene::LightKind::directional)
+            return -glm::normalize(dvec3(std::get<scene::DirectionalLight>(light_.shape).direction));
         if (light_.kind() == scene::LightKind::spot) return dvec3(std::get<scene::SpotLight>(light_.shape).position) - p;
         return dvec3(std::get<scene::PointLight>(light_.shape).position) - p;
     }
 
 private:
+    static bool in_plane(const Triangle& own, const Triangle& other)
+    {
+        const dvec3 n = normal(own);
+        const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
+        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < 1e-9 * glm::length(n);
+    }
+
     Verdict behind(const Triangle& t, dvec3 p) const
     {
         const dvec3 n = normal(t);
@@ -105,7 +113,9 @@ inline scene::Scene soup(uint32_t seed, int triangles)
             m.indices.push_back(uint32_t(m.positions.size()));
             m.positions.push_back(centre + size * vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
         }
-        if (t % 16 == 0) m.positions.back() = t % 32 ? m.positions[m.positions.size() - 2] : 0.5f * (m.positions[m.positions.size() - 2] + m.positions[m.positions.size() - 3]);
+        if (t % 16 == 0)
+            m.positions.back() = t % 32 ? m.positions[m.positions.size() - 2]
+                                        : 0.5f * (m.positions[m.positions.size() - 2] + m.positions[m.positions.size() - 3]);
     }
     scene::complete(m);
     s.instances.push_back({int(s.meshes.size()), mat4(1)});
