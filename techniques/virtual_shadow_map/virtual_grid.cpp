@@ -15,8 +15,8 @@ namespace {
 
 using namespace shadow;
 
-/// Finest virtual map, as a power of two: coordinates of 24 bits then still tell 32 places in a texel apart.
-constexpr int finest_bits = 19;
+/// Finest virtual map, as a power of two: coordinates of 24 bits then still tell 8 places in a texel apart.
+constexpr int finest_bits = 21;
 
 float power_above(float v) { return std::exp2(std::ceil(std::log2(std::max(v, 1e-6f)))); }
 
@@ -165,7 +165,7 @@ Grid fit_grid(const scene::View& view, const Bounds& bounds, const scene::Light&
     if (sun) fit_directional(grid, bounds, sun->direction);
     else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape)) fit_spot(grid, bounds, *spot);
     else fit_point(grid, bounds, std::get<scene::PointLight>(light.shape).position);
-    const int finest = std::min({side_bits + (sun ? params.finer_levels : 0), finest_bits - page_bits, VIRTUAL_LEVELS - 1, 12});
+    const int finest = std::min({side_bits + (sun ? params.finer_levels : 0), finest_bits - page_bits, VIRTUAL_LEVELS - 1});
     grid.levels = finest + 1;
     for (int l = 0; l < grid.levels; ++l) {
         const int side = 1 << std::min(l, side_bits);

@@ -3,11 +3,12 @@
 #ifndef GNOMON_VIRTUAL_GRID_GLSL
 #define GNOMON_VIRTUAL_GRID_GLSL
 
-// A page of any face, level and place has an identity of its own, which stays when the table's windows move.
-uint page_id(int face, int level, ivec2 page) { return uint(face) << 28 | uint(level) << 24 | uint(page.y) << 12 | uint(page.x); }
-int face_of(uint id) { return int(id >> 28); }
-int level_of(uint id) { return int(id >> 24 & 15u); }
-ivec2 place_of(uint id) { return ivec2(id & 4095u, id >> 12 & 4095u); }
+// A page of any face, level and place has an identity of its own, which stays when the table's windows move: 4 bits of level, 14 each of
+// row and column; faces of a level lie side by side.
+uint page_id(int face, int level, ivec2 page) { return uint(level) << 28 | uint(page.y) << 14 | uint((face << level) + page.x); }
+int level_of(uint id) { return int(id >> 28); }
+int face_of(uint id) { return int(id & 16383u) >> level_of(id); }
+ivec2 place_of(uint id) { return ivec2(id & ((1u << level_of(id)) - 1u), id >> 14 & 16383u); }
 
 ivec2 page_at(vec2 uv, int level) { return clamp(ivec2(floor(uv * float(1 << level))), ivec2(0), ivec2((1 << level) - 1)); }
 

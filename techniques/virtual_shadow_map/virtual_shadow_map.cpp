@@ -35,7 +35,7 @@ void describe(Params& p, Fields& fields)
 
 } // namespace
 
-void VirtualShadowMap::prepare(gpu::PassList& passes, const Frame& frame, const Params& params)
+bool VirtualShadowMap::prepare(gpu::PassList& passes, const Frame& frame, const Params& params)
 {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     const int pool = int(std::min({uint32_t(params.pool_pages), limits.maxImageArrayLayers, limits.maxFramebufferLayers}));
@@ -51,6 +51,7 @@ void VirtualShadowMap::prepare(gpu::PassList& passes, const Frame& frame, const 
     if (!pool_ || pool_.desc().size.width != drawn || int(pool_.desc().layers) != pool)
         pool_ = device_.image({VK_FORMAT_D32_SFLOAT, {drawn, drawn}, uint32_t(pool), 1, VK_SAMPLE_COUNT_1_BIT, false, "page pool"});
     if (!keep) passes.fill(passes.import(slots_), VIRTUAL_NO_PAGE, "forget pages");
+    return keep;
 }
 
 gpu::ImageId VirtualShadowMap::request(gpu::PassList& passes, const Frame& frame, const Params& params, const Work& work)
@@ -145,7 +146,7 @@ void VirtualShadowMap::draw(gpu::PassList& passes, const Frame& frame, const Wor
     passes.raster({.name = "clear pages",
         .program = &device_.raster_program("techniques/virtual_shadow_map/virtual_shadow_map_clear.vert", ""),
         .bindings = {{w.pages, gpu::Use::load}},
-        .depth = gpu::DepthTarget{.image = passes.import(pool_), .load = gpu::Load::keep, .compare = VK_COMPARE_OP_ALWAYS},
+        .depth = gpu::DepthTarget{.image = passes.import(pool_), .load = w.kept ? gpu::Load::keep : gpu::Load::discard, .compare = VK_COMPARE_OP_ALWAYS},
         .layers = uint32_t(grid_.pool),
         .buffers = {{w.counts, gpu::Use::indirect}},
         .draw = [counts = w.counts](gpu::Encoder& encoder) { encoder.draw_indirect(counts, 0, 1, 16); }});
@@ -172,11 +173,11 @@ void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const 
 
 void VirtualShadowMap::record_with(gpu::PassList& passes, const Frame& frame, const Params& params)
 {
-    prepare(passes, frame, params);
+    const bool kept = prepare(passes, frame, params);
     const gpu::BufferDesc entries{uint64_t(grid_.entries) * 4, 0, gpu::Memory::device, "page marks"};
     const gpu::BufferDesc pages{uint64_t(grid_.pool) * sizeof(PageDraw), 0, gpu::Memory::device, "pages to draw"};
     const Work w{passes.transient(entries), passes.transient(entries), passes.import(counts_), passes.import(slots_), passes.transient(pages),
-        {grid_, frame_, casters_.moved_count()}};
+        {grid_, frame_, casters_.moved_count()}, kept};
     passes.fill(w.marks, 0, "clear marks");
     passes.fill(w.table, 0, "clear table");
     passes.fill(w.counts, 0, "clear counts");

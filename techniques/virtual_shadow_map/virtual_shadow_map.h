@@ -29,8 +29,9 @@ private:
     struct Work {
         gpu::BufferId marks, table, counts, slots, pages;
         PageConstants constants;
+        bool kept; ///< pages of earlier frames may serve
     };
-    void prepare(gpu::PassList&, const shadow::Frame&, const Params&);
+    bool prepare(gpu::PassList&, const shadow::Frame&, const Params&);
     gpu::ImageId request(gpu::PassList&, const shadow::Frame&, const Params&, const Work&);
     void allocate(gpu::PassList&, const Work&);
     void draw(gpu::PassList&, const shadow::Frame&, const Work&);

@@ -4,7 +4,7 @@
 #include "shaders/frame.shared.h"
 #include "shaders/light_map.shared.h"
 
-#define VIRTUAL_LEVELS 14 // at most
+#define VIRTUAL_LEVELS 15 // at most
 #define VIRTUAL_NO_PAGE 0xffffffffu
 #define VIRTUAL_RUN 256 // table entries that one invocation looks through for new pages
 #define VIRTUAL_SHOW_LEVEL 1
@@ -14,7 +14,7 @@ TECHNIQUE_BEGIN(virtual_shadow_map)
 
 struct Params {
     int virtual_size DEFAULT(4); ///< 1024 << virtual_size
-    int finer_levels DEFAULT(5);
+    int finer_levels DEFAULT(7);
     int page DEFAULT(1); ///< 64 << page
     int pool_pages DEFAULT(1024);
     float footprint DEFAULT(1.0f);

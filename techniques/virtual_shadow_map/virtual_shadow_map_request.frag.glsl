@@ -37,7 +37,7 @@ void main()
     const float det = abs(across.x * down.y - across.y * down.x);
     const float longer = max(length(vec2(across.y, down.y)), length(vec2(across.x, down.x))) / max(det, 1e-30);
     const float level = log2(longer / (float(c.grid.page) * c.footprint));
-    wanted = level > 0.0 ? min(level, float(c.grid.levels - 1)) : 0.0; // also where it is not a number
+    wanted = level > 0.0 ? min(level, 30.0) : 0.0; // also where it is not a number
     const vec2 uv = h.xy / h.w;
     const int chosen = level_for(wanted, uv);
     marks[entry_of(face, chosen, page_at(uv, chosen))] = 1u;
