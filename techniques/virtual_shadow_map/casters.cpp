@@ -20,7 +20,8 @@ std::vector<Bounds> cluster_bounds(const scene::Mesh& mesh)
     std::vector<Bounds> out;
     for (size_t first = 0; first < mesh.indices.size(); first += 3 * cluster_triangles) {
         Bounds b;
-        for (size_t i = first; i < std::min(first + 3 * cluster_triangles, mesh.indices.size()); ++i) b.add(mesh.positions[mesh.indices[i]]);
+        for (size_t i = first; i < std::min(first + 3 * cluster_triangles, mesh.indices.size()); ++i)
+            b.add(mesh.positions[mesh.indices[i]]);
         out.push_back(b);
     }
     return out;

@@ -5,6 +5,7 @@
 #include "shadow/light_constants.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon::techniques::virtual_shadow_map {
 
@@ -22,12 +23,16 @@ void describe(Params& p, Fields& fields)
     fields.integer("finer_levels", p.finer_levels, {0, 9}, "levels",
         "A directional light's levels beyond the one whose whole map has that size: each has texels half as wide.");
     fields.choice("page", p.page, {"64", "128", "256"}, "Texels a side of a page.");
-    fields.integer("pool_pages", p.pool_pages, {16, 2048}, "pages", "Pages that have memory; where more are needed, the finest are left out.");
+    fields.integer(
+        "pool_pages", p.pool_pages, {16, 2048}, "pages", "Pages that have memory; where more are needed, the finest are left out.");
     fields.real("footprint", p.footprint, {0.01, 64}, "pixels", "Longest side that a texel may have, seen from the eye.");
+    fields.real("grazing", p.grazing, {0, 30}, "degrees",
+        "Receivers at less than this angle to the light get no finer texels than those at it: they ask for many pages, and are dim.");
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block instead of taking the nearest texel.");
     fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
-    fields.real("slope_limit", p.slope_limit, {0, 1000}, "", "The steepest receiver whose plane the filter follows, metres of depth a metre.");
+    fields.real(
+        "slope_limit", p.slope_limit, {0, 1000}, "", "The steepest receiver whose plane the filter follows, metres of depth a metre.");
     fields.flag("cache", p.cache, "Pages are kept from frame to frame; off: all are drawn anew. The picture is the same.");
     fields.choice("show", p.show, {"shadow", "level", "footprint"},
         "To look at instead of the shadow: each pixel's level (black: coarsest), or its texel's longest side (grey: as asked for).");
@@ -56,13 +61,13 @@ bool VirtualShadowMap::prepare(gpu::PassList& passes, const Frame& frame, const 
 
 gpu::ImageId VirtualShadowMap::request(gpu::PassList& passes, const Frame& frame, const Params& params, const Work& work)
 {
-    const gpu::ImageId wanted = passes.transient({VK_FORMAT_R32_SFLOAT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "wanted level"});
+    const gpu::ImageId wanted
+        = passes.transient({VK_FORMAT_R32_SFLOAT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "wanted level"});
     passes.fullscreen({.name = "request",
-        .program
-        = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_request.frag"),
+        .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_request.frag"),
         .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {work.marks, gpu::Use::update}},
-        .constants = RequestConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), grid_,
-            params.footprint},
+        .constants = RequestConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
+            grid_, params.footprint, std::sin(params.grazing * pi / 180.0f)},
         .colors = {{wanted}}});
     return wanted;
 }
@@ -87,8 +92,8 @@ void VirtualShadowMap::allocate(gpu::PassList& passes, const Work& w)
     passes.compute(compute("ancestors", w, {{w.marks, Use::update}, {w.counts, Use::update}}, entries));
     passes.compute(compute("keep", w,
         {{w.marks, Use::load}, {w.counts, Use::update}, {w.slots, Use::update}, {w.table, Use::update}, {moved, Use::load}}, pool));
-    passes.compute(compute("count", w,
-        {{w.marks, Use::load}, {w.counts, Use::load}, {w.table, Use::load}, {run_counts, Use::store}}, runs));
+    passes.compute(
+        compute("count", w, {{w.marks, Use::load}, {w.counts, Use::load}, {w.table, Use::load}, {run_counts, Use::store}}, runs));
     passes.compute(compute("list", w,
         {{w.marks, Use::load}, {w.counts, Use::update}, {w.table, Use::load}, {run_counts, Use::load}, {fresh, Use::store}}, runs));
     passes.compute(compute("evict", w, {{w.counts, Use::load}, {w.slots, Use::load}, {chosen, Use::store}}, pool));
@@ -146,7 +151,9 @@ void VirtualShadowMap::draw(gpu::PassList& passes, const Frame& frame, const Wor
     passes.raster({.name = "clear pages",
         .program = &device_.raster_program("techniques/virtual_shadow_map/virtual_shadow_map_clear.vert", ""),
         .bindings = {{w.pages, gpu::Use::load}},
-        .depth = gpu::DepthTarget{.image = passes.import(pool_), .load = w.kept ? gpu::Load::keep : gpu::Load::discard, .compare = VK_COMPARE_OP_ALWAYS},
+        .depth = gpu::DepthTarget{.image = passes.import(pool_),
+            .load = w.kept ? gpu::Load::keep : gpu::Load::discard,
+            .compare = VK_COMPARE_OP_ALWAYS},
         .layers = uint32_t(grid_.pool),
         .buffers = {{w.counts, gpu::Use::indirect}},
         .draw = [counts = w.counts](gpu::Encoder& encoder) { encoder.draw_indirect(counts, 0, 1, 16); }});
@@ -166,8 +173,8 @@ void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const 
         .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {wanted, gpu::Use::sample},
             gpu::Binding(passes.import(pool_), gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {w.table, gpu::Use::load},
             {w.counts, gpu::Use::load}},
-        .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), grid_,
-            params},
+        .constants
+        = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), grid_, params},
         .colors = {{frame.output}}});
 }
 
@@ -176,8 +183,8 @@ void VirtualShadowMap::record_with(gpu::PassList& passes, const Frame& frame, co
     const bool kept = prepare(passes, frame, params);
     const gpu::BufferDesc entries{uint64_t(grid_.entries) * 4, 0, gpu::Memory::device, "page marks"};
     const gpu::BufferDesc pages{uint64_t(grid_.pool) * sizeof(PageDraw), 0, gpu::Memory::device, "pages to draw"};
-    const Work w{passes.transient(entries), passes.transient(entries), passes.import(counts_), passes.import(slots_), passes.transient(pages),
-        {grid_, frame_, casters_.moved_count()}, kept};
+    const Work w{passes.transient(entries), passes.transient(entries), passes.import(counts_), passes.import(slots_),
+        passes.transient(pages), {grid_, frame_, casters_.moved_count()}, kept};
     passes.fill(w.marks, 0, "clear marks");
     passes.fill(w.table, 0, "clear table");
     passes.fill(w.counts, 0, "clear counts");

@@ -18,6 +18,7 @@ struct Params {
     int page DEFAULT(1); ///< 64 << page
     int pool_pages DEFAULT(1024);
     float footprint DEFAULT(1.0f);
+    float grazing DEFAULT(2.0f); ///< degrees
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
     float bias_constant DEFAULT(0.0f);
@@ -92,6 +93,7 @@ struct RequestConstants {
     Light light;
     Grid grid;
     float footprint; ///< pixels
+    float least_sine; ///< of the angle between a receiver and the light
 };
 
 struct PageConstants {

@@ -36,7 +36,8 @@ void main()
     // its inverse's columns are the sides of a texel in pixels; here those of a map of one texel
     const float det = abs(across.x * down.y - across.y * down.x);
     const float longer = max(length(vec2(across.y, down.y)), length(vec2(across.x, down.x))) / max(det, 1e-30);
-    const float level = log2(longer / (float(c.grid.page) * c.footprint));
+    const float sine = dot(r.n_geometric, to_light(c.light, r.p_world).xyz);
+    const float level = log2(min(1.0, sine / max(c.least_sine, 1e-6)) * longer / (float(c.grid.page) * c.footprint));
     wanted = level > 0.0 ? min(level, 30.0) : 0.0; // also where it is not a number
     const vec2 uv = h.xy / h.w;
     const int chosen = level_for(wanted, uv);
