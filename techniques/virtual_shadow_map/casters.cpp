@@ -13,7 +13,7 @@ using namespace shadow;
 
 /// Neighbours in the index buffer are mostly neighbours in space. Smaller clusters draw fewer triangles beside a page, and take more
 /// draw commands.
-constexpr size_t cluster_triangles = 128;
+constexpr size_t cluster_triangles = 64;
 
 std::vector<Bounds> cluster_bounds(const scene::Mesh& mesh)
 {

@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the marked pages are used. Include after virtual_grid.glsl and a buffer `counts`.
+// Which of the marked pages are used. Include after a block `c` with the member `grid` and a buffer `counts`.
 #ifndef GNOMON_VIRTUAL_COUNTS_GLSL
 #define GNOMON_VIRTUAL_COUNTS_GLSL
 
-#define MARK_REQUESTED 1u
-#define MARK_COVERS 2u // holds a requested page of a finer level
-
-// With all requests of finer levels moved to the pages of level l that hold them, sum(k < l) direct_k + covering_l pages are used, which
-// grows with l: the finest level for which they fit. It follows from this frame's requests alone, not from what earlier ones left.
-uint finest_level()
+// Bit b of a page's mark: with all requests lowered by b levels, some sample uses the page. The least b for which the pages fit into the
+// pool follows from this frame's requests alone, not from what earlier ones left there. Level 0 has one page a face: it always fits.
+uint levels_lowered()
 {
-    uint finest = 0, coarser = 0;
-    for (int l = 0; l < c.grid.levels; ++l) {
-        if (coarser + counts.covering[l] <= uint(c.grid.pool)) finest = uint(l);
-        coarser += counts.direct[l];
-    }
-    return finest;
-}
-
-bool is_needed(uint mark, int level, uint finest)
-{
-    return uint(level) < finest ? (mark & MARK_REQUESTED) != 0u : uint(level) == finest && mark != 0u;
+    uint b = 0u;
+    while (b + 1u < uint(c.grid.levels) && counts.requested[b] > uint(c.grid.pool)) ++b;
+    return b;
 }
 
 #endif

@@ -15,40 +15,40 @@ namespace {
 
 using namespace shadow;
 
-/// Finest virtual map, as a power of two: coordinates of 24 bits then still tell 8 places in a texel apart.
-constexpr int finest_bits = 21;
+/// Finest virtual map, as a power of two: coordinates have 24 bits.
+constexpr int finest_bits = 24;
+/// Metres. No receiver is looked at so closely that it needs finer texels, and each level takes room in the table.
+constexpr float finest_texel = 1e-4f;
 
 float power_above(float v) { return std::exp2(std::ceil(std::log2(std::max(v, 1e-6f)))); }
 
-/// The scene in a light's axes, with margins: whole steps of an eighth of a power of two above its width, so that objects which move about
-/// in the scene leave it as it is.
-struct Frame {
-    mat4 axes{1};
-    vec3 corner{0};
-    float width = 1;
-};
-
-Frame frame_of(const Bounds& bounds, vec3 direction)
+/// A range that begins at or before `from`: its length a power of two, its beginning a multiple of an eighth of that, so that objects which
+/// move about in the scene leave it as it is.
+vec2 steady_range(float from, float length)
 {
-    // Axes through the world's origin would round to millionths of the way there.
-    const float coarse = 4.0f * power_above(bounds.radius());
-    Frame out;
-    out.axes = parts::light_axes(glm::round(bounds.centre() / coarse) * coarse, direction, vec3(0, 1, 0));
-    Bounds box;
-    for (const vec3 p : parts::corners(bounds)) box.add(vec3(out.axes * vec4(p, 1)));
-    const vec3 sides = box.max - box.min;
-    out.width = power_above(std::max({sides.x, sides.y, sides.z, 1e-4f}) * 8.0f / 7.0f);
-    const float step = out.width / 8.0f;
-    out.corner = glm::floor(box.min / step) * step;
-    return out;
+    const float step = length / 8.0f;
+    return vec2(std::floor(from / step) * step, std::floor(from / step) * step + length);
 }
+
+float steady_length(float length) { return power_above(std::max(length, 1e-4f) * 8.0f / 7.0f); }
 
 void fit_directional(Grid& grid, const Bounds& bounds, vec3 direction)
 {
-    const Frame f = frame_of(bounds, direction);
-    const vec2 depths(f.corner.z, f.corner.z + f.width);
+    // Axes through the world's origin would round to millionths of the way there.
+    const float coarse = 4.0f * power_above(bounds.radius());
+    const mat4 axes = parts::light_axes(glm::round(bounds.centre() / coarse) * coarse, direction, vec3(0, 1, 0));
+    Bounds box;
+    for (const vec3 p : parts::corners(bounds)) box.add(vec3(axes * vec4(p, 1)));
+    const vec3 sides = box.max - box.min;
+    const float width = steady_length(std::max(sides.x, sides.y));
+    const vec2 x = steady_range(box.min.x, width), y = steady_range(box.min.y, width);
+    const vec2 z = steady_range(box.min.z, steady_length(sides.z));
     grid.layout_kind = LIGHT_MAP_SINGLE, grid.faces = 1;
-    grid.face[0] = parts::orthographic_layer(f.axes, vec2(f.corner) + 0.5f * f.width, f.width, depths, depths, grid.page);
+    LightMapLayer& face = grid.face[0];
+    face = parts::orthographic_layer(axes, vec2(0), width, z, z, grid.page);
+    // v is down and y up
+    grid.offset = vec2(-x[0] / width, y[1] / width);
+    face.map_from_world[3].x -= 0.5f, face.map_from_world[3].y -= 0.5f;
 }
 
 /// Planes of a light at `position`, in powers of two like a directional light's frame.
@@ -126,12 +126,12 @@ Seen seen_by(const scene::View& view, const Bounds& bounds, int page)
 /// On the face, the middle of the samples that need a level: from where its texels are as wide as a pixel, and as far beyond as a window
 /// reaches, since receivers that graze the light need finer texels. With its middle at 0.6 of its half width before the eye, what a view
 /// of 80 degrees sees at 1.2 half widths is inside.
-vec2 centre_of_level(const LightMapLayer& face, const Seen& seen, int level, int side)
+vec2 centre_of_level(const Grid& grid, const Seen& seen, int level, int side)
 {
-    const float page = face.texel_metres * float(seen.page) / float(1 << level); // metres
+    const float page = grid.face[0].texel_metres * float(seen.page) / float(1 << level); // metres
     const float away = std::max(page / float(seen.page) / seen.pixel, 0.3f * page * float(side));
     const vec3 p = seen.view.orthographic ? seen.centre : seen.view.eye + seen.forward * std::min(away, seen.farthest);
-    return glm::clamp(vec2(face.map_from_world * vec4(p, 1)), vec2(0), vec2(1));
+    return glm::clamp(vec2(grid.face[0].map_from_world * vec4(p, 1)) + grid.offset, vec2(0), vec2(1));
 }
 
 void place_windows(Grid& grid, const scene::View& view, const Bounds& bounds)
@@ -142,7 +142,7 @@ void place_windows(Grid& grid, const scene::View& view, const Bounds& bounds)
         Level& level = grid.level[l];
         const int pages = 1 << l, side = level.side;
         if (side == pages) continue;
-        const vec2 start = centre_of_level(grid.face[0], seen, l, side) * float(pages) - 0.5f * float(side);
+        const vec2 start = centre_of_level(grid, seen, l, side) * float(pages) - 0.5f * float(side);
         // A window holds all of the next finer one, so that a page's ancestors are always in the table.
         int least_x = 0, most_x = pages - side, least_y = 0, most_y = pages - side;
         if (l + 1 < grid.levels) {
@@ -173,7 +173,9 @@ Grid fit_grid(const scene::View& view, const Bounds& bounds, const scene::Light&
         fit_spot(grid, bounds, *spot);
     else
         fit_point(grid, bounds, std::get<scene::PointLight>(light.shape).position);
-    const int finest = std::min({side_bits + (sun ? params.finer_levels : 0), finest_bits - page_bits, VIRTUAL_LEVELS - 1});
+    const int useful = int(std::log2(std::max(grid.face[0].texel_metres / finest_texel, 1.0f)));
+    const int finest = std::min(
+        {side_bits + (sun ? std::clamp(useful - side_bits, 0, params.finer_levels) : 0), finest_bits - page_bits, VIRTUAL_LEVELS - 1});
     grid.levels = finest + 1;
     for (int l = 0; l < grid.levels; ++l) {
         const int side = 1 << std::min(l, side_bits);

@@ -16,15 +16,17 @@ using namespace shadow;
 /// Pairs of pages and clusters that one batch of pages has room for: 8 bytes each.
 constexpr uint32_t batch_pairs = 1u << 20;
 
+uint64_t run_count(const Grid& grid) { return (grid.entries + VIRTUAL_RUN - 1) / VIRTUAL_RUN; }
+
 void describe(Params& p, Fields& fields)
 {
     fields.choice("virtual_size", p.virtual_size, {"1024", "2048", "4096", "8192", "16384", "32768"},
         "Texels a side of the finest map of a spot or of a point's face; of a directional light, of each level's window around the view.");
-    fields.integer("finer_levels", p.finer_levels, {0, 9}, "levels",
+    fields.integer("finer_levels", p.finer_levels, {0, 12}, "levels",
         "A directional light's levels beyond the one whose whole map has that size: each has texels half as wide.");
     fields.choice("page", p.page, {"64", "128", "256"}, "Texels a side of a page.");
-    fields.integer(
-        "pool_pages", p.pool_pages, {16, 2048}, "pages", "Pages that have memory; where more are needed, the finest are left out.");
+    fields.integer("pool_pages", p.pool_pages, {16, 2048}, "pages",
+        "Pages that have memory; where more are needed, all texels are taken twice, four times, ... as long.");
     fields.real("footprint", p.footprint, {0.01, 64}, "pixels", "Longest side that a texel may have, seen from the eye.");
     fields.real("grazing", p.grazing, {0, 30}, "degrees",
         "Receivers at less than this angle to the light get no finer texels than those at it: they ask for many pages, and are dim.");
@@ -84,12 +86,12 @@ gpu::ComputePass VirtualShadowMap::compute(const char* name, const Work& work, s
 void VirtualShadowMap::allocate(gpu::PassList& passes, const Work& w)
 {
     using gpu::Use;
-    const uint64_t entries = grid_.entries, runs = (entries + VIRTUAL_RUN - 1) / VIRTUAL_RUN, pool = uint64_t(grid_.pool);
+    const uint64_t runs = run_count(grid_), pool = uint64_t(grid_.pool);
     const gpu::BufferId run_counts = passes.transient(gpu::BufferDesc{runs * 4, 0, gpu::Memory::device, "new pages of runs"});
-    const gpu::BufferId fresh = passes.transient(gpu::BufferDesc{pool * 4, 0, gpu::Memory::device, "new pages"});
+    const gpu::BufferId fresh = passes.transient(gpu::BufferDesc{pool * 8, 0, gpu::Memory::device, "new pages"});
     const gpu::BufferId chosen = passes.transient(gpu::BufferDesc{pool * 4, 0, gpu::Memory::device, "layers of new pages"});
     const gpu::BufferId moved = passes.import(casters_.moved());
-    passes.compute(compute("ancestors", w, {{w.marks, Use::update}, {w.counts, Use::update}}, entries));
+    passes.compute(compute("ancestors", w, {{w.marks, Use::update}, {w.counts, Use::update}}, runs));
     passes.compute(compute("keep", w,
         {{w.marks, Use::load}, {w.counts, Use::update}, {w.slots, Use::update}, {w.table, Use::update}, {moved, Use::load}}, pool));
     passes.compute(
@@ -181,10 +183,11 @@ void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const 
 void VirtualShadowMap::record_with(gpu::PassList& passes, const Frame& frame, const Params& params)
 {
     const bool kept = prepare(passes, frame, params);
-    const gpu::BufferDesc entries{uint64_t(grid_.entries) * 4, 0, gpu::Memory::device, "page marks"};
+    const gpu::BufferDesc marks{(grid_.entries + run_count(grid_)) * 4, 0, gpu::Memory::device, "page marks"};
+    const gpu::BufferDesc entries{uint64_t(grid_.entries) * 4, 0, gpu::Memory::device, "page table"};
     const gpu::BufferDesc pages{uint64_t(grid_.pool) * sizeof(PageDraw), 0, gpu::Memory::device, "pages to draw"};
-    const Work w{passes.transient(entries), passes.transient(entries), passes.import(counts_), passes.import(slots_),
-        passes.transient(pages), {grid_, frame_, casters_.moved_count()}, kept};
+    const Work w{passes.transient(marks), passes.transient(entries), passes.import(counts_), passes.import(slots_), passes.transient(pages),
+        {grid_, frame_, casters_.moved_count()}, kept};
     passes.fill(w.marks, 0, "clear marks");
     passes.fill(w.table, 0, "clear table");
     passes.fill(w.counts, 0, "clear counts");

@@ -4,8 +4,8 @@
 #include "shaders/frame.shared.h"
 #include "shaders/light_map.shared.h"
 
-#define VIRTUAL_LEVELS 15 // at most
-#define VIRTUAL_NO_PAGE 0xffffffffu
+#define VIRTUAL_LEVELS 18 // at most
+#define VIRTUAL_NO_PAGE 0xffffffffu // as Slot::page.x
 #define VIRTUAL_RUN 256 // table entries that one invocation looks through for new pages
 #define VIRTUAL_SHOW_LEVEL 1
 #define VIRTUAL_SHOW_FOOTPRINT 2
@@ -13,8 +13,8 @@
 TECHNIQUE_BEGIN(virtual_shadow_map)
 
 struct Params {
-    int virtual_size DEFAULT(4); ///< 1024 << virtual_size
-    int finer_levels DEFAULT(7);
+    int virtual_size DEFAULT(5); ///< 1024 << virtual_size
+    int finer_levels DEFAULT(9);
     int page DEFAULT(1); ///< 64 << page
     int pool_pages DEFAULT(1024);
     float footprint DEFAULT(1.0f);
@@ -44,7 +44,7 @@ struct Grid {
     int pool; ///< pages that have memory
     uint face_entries, entries; ///< of the page table
     vec3 centre; ///< of the cube
-    float padding;
+    vec2 offset; ///< a face's uv less what its matrix gives: a multiple of 1/8, so that coordinates near the axes' origin keep their bits
     Level level[VIRTUAL_LEVELS];
     LightMapLayer face[6]; ///< with texels of the coarsest level
 };
@@ -52,18 +52,15 @@ struct Grid {
 /// Counts of one frame, and what indirect draws read.
 struct Counts {
     uint clear_vertices, fresh, clear_first_vertex, clear_first_instance; ///< a VkDrawIndirectCommand; fresh: pages drawn in this frame
-    uint requested; ///< pages that samples asked for
-    uint needed; ///< pages that samples use: fewer than requested where the pool is full
+    uint coarser; ///< levels by which every request is lowered, so that all fit into the pool
     uint kept; ///< of those needed, drawn in an earlier frame
-    uint finest; ///< the finest level that the pool has room for
     uint pairs; ///< of a page and a cluster of triangles drawn into it
-    uint direct[VIRTUAL_LEVELS]; ///< requested by level
-    uint covering[VIRTUAL_LEVELS]; ///< pages of the level that are requested or hold requested ones
+    uint requested[VIRTUAL_LEVELS]; ///< pages that samples would use with requests lowered by so many levels; [coarser] is what they use
 };
 
 /// What is in a layer of the pool.
 struct Slot {
-    uint page; ///< page_id, or VIRTUAL_NO_PAGE
+    uvec2 page; ///< page_id
     uint used; ///< frame in which it was last needed
 };
 

@@ -11,7 +11,6 @@ layout(set = 0, binding = 2, scalar) readonly buffer Table { uint table[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer Runs { uint runs[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { PageConstants c; };
 #include "techniques/virtual_shadow_map/virtual_grid.glsl"
-#include "techniques/virtual_shadow_map/virtual_counts.glsl"
 
 void main()
 {
@@ -19,7 +18,7 @@ void main()
     if (begin >= c.grid.entries) return;
     const uint end = min(begin + VIRTUAL_RUN, c.grid.entries);
     uint fresh = 0u;
-    for (uint e = begin; e < end; ++e)
-        if (marks[e] != 0u && table[e] == 0u && is_needed(marks[e], level_of(id_of_entry(e)), counts.finest)) ++fresh;
+    for (uint e = begin; e < end && marks[run_mark(begin)] != 0u; ++e)
+        if ((marks[e] >> counts.coarser & 1u) != 0u && table[e] == 0u) ++fresh;
     runs[gl_GlobalInvocationID.x] = fresh;
 }

@@ -11,7 +11,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer Chosen { uint chosen[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { PageConstants c; };
 
 // Frames begin at 1: empty layers come first.
-uint last_used(uint slot) { return slots[slot].page == VIRTUAL_NO_PAGE ? 0u : slots[slot].used; }
+uint last_used(uint slot) { return slots[slot].page.x == VIRTUAL_NO_PAGE ? 0u : slots[slot].used; }
 
 void main()
 {

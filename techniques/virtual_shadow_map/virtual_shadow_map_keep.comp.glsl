@@ -15,7 +15,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { PageConstants c; };
 #include "techniques/virtual_shadow_map/virtual_counts.glsl"
 #include "techniques/virtual_shadow_map/virtual_page.glsl"
 
-bool holds_moved(uint id)
+bool holds_moved(uvec2 id)
 {
     const PageDraw d = page_draw(id, 0u);
     for (uint i = 0; i < c.moved; ++i)
@@ -26,28 +26,18 @@ bool holds_moved(uint id)
 void main()
 {
     const uint slot = gl_GlobalInvocationID.x;
-    const uint finest = finest_level();
-    if (slot == 0u) {
-        counts.finest = finest;
-        counts.clear_vertices = 3u;
-        uint requested = 0u, coarser = 0u;
-        for (int l = 0; l < c.grid.levels; ++l) {
-            requested += counts.direct[l];
-            if (uint(l) < finest) coarser += counts.direct[l];
-        }
-        counts.requested = requested;
-        counts.needed = coarser + counts.covering[finest];
-    }
+    const uint lowered = levels_lowered();
+    if (slot == 0u) counts.coarser = lowered, counts.clear_vertices = 3u;
     if (slot >= uint(c.grid.pool)) return;
-    const uint id = slots[slot].page;
-    if (id == VIRTUAL_NO_PAGE) return;
+    const uvec2 id = slots[slot].page;
+    if (id.x == VIRTUAL_NO_PAGE) return;
     if (holds_moved(id)) {
-        slots[slot] = Slot(VIRTUAL_NO_PAGE, 0u);
+        slots[slot] = Slot(uvec2(VIRTUAL_NO_PAGE), 0u);
         return;
     }
     if (!in_window(level_of(id), place_of(id))) return;
     const uint entry = entry_of(id);
-    if (!is_needed(marks[entry], level_of(id), finest)) return;
+    if ((marks[entry] >> lowered & 1u) == 0u) return;
     slots[slot].used = c.frame;
     table[entry] = slot + 1u;
     atomicAdd(counts.kept, 1u);

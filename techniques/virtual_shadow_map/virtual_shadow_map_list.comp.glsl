@@ -9,10 +9,9 @@ layout(set = 0, binding = 0, scalar) readonly buffer Marks { uint marks[]; };
 layout(set = 0, binding = 1, scalar) buffer CountsOf { Counts counts; };
 layout(set = 0, binding = 2, scalar) readonly buffer Table { uint table[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Runs { uint runs[]; };
-layout(set = 0, binding = 4, scalar) writeonly buffer Fresh { uint fresh[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Fresh { uvec2 fresh[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { PageConstants c; };
 #include "techniques/virtual_shadow_map/virtual_grid.glsl"
-#include "techniques/virtual_shadow_map/virtual_counts.glsl"
 
 void main()
 {
@@ -22,9 +21,6 @@ void main()
     for (uint r = 0u; r < run; ++r) at += runs[r];
     atomicAdd(counts.fresh, runs[run]);
     const uint end = min(begin + VIRTUAL_RUN, c.grid.entries);
-    for (uint e = begin; e < end; ++e) {
-        if (marks[e] == 0u || table[e] != 0u) continue;
-        const uint id = id_of_entry(e);
-        if (is_needed(marks[e], level_of(id), counts.finest)) fresh[at++] = id;
-    }
+    for (uint e = begin; e < end; ++e)
+        if ((marks[e] >> counts.coarser & 1u) != 0u && table[e] == 0u) fresh[at++] = id_of_entry(e);
 }

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer CountsOf { Counts counts; };
-layout(set = 0, binding = 1, scalar) readonly buffer Fresh { uint fresh[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Fresh { uvec2 fresh[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Chosen { uint chosen[]; };
 layout(set = 0, binding = 3, scalar) writeonly buffer Slots { Slot slots[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Table { uint table[]; };
@@ -19,7 +19,8 @@ void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= counts.fresh) return;
-    const uint id = fresh[i], slot = chosen[i];
+    const uvec2 id = fresh[i];
+    const uint slot = chosen[i];
     slots[slot] = Slot(id, c.frame);
     table[entry_of(id)] = slot + 1u;
     pages[i] = page_draw(id, slot);

@@ -41,5 +41,7 @@ void main()
     wanted = level > 0.0 ? min(level, 30.0) : 0.0; // also where it is not a number
     const vec2 uv = h.xy / h.w;
     const int chosen = level_for(wanted, uv);
-    marks[entry_of(face, chosen, page_at(uv, chosen))] = 1u;
+    const uint entry = entry_of(face, chosen, page_at(uv, chosen));
+    marks[entry] = 1u;
+    marks[run_mark(entry)] = 1u;
 }

@@ -29,7 +29,7 @@ void main()
     LightMapLayer layer = c.grid.face[face];
     MapPoint m = project(layer, r.p_world);
     const float wanted = texelFetch(wanted_image, ivec2(gl_FragCoord.xy), 0).r;
-    const int level = min(level_for(wanted, m.uv), int(counts.finest));
+    const int level = max(level_for(wanted, m.uv) - int(counts.coarser), 0);
     if (show == VIRTUAL_SHOW_LEVEL) {
         visibility = float(level) / float(c.grid.levels);
         return;
@@ -47,8 +47,8 @@ void main()
     m.depth -= c.params.bias_constant;
     const float radius = 0.5 * float(pcf) + 1.0;
     ReceiverPlane plane = receiver_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
-    // Coordinates of a large map round to more than the rasteriser's snapping does: 24 bits for all of its width.
-    plane.z += (abs(plane.slope.x) + abs(plane.slope.y)) * size * 1.2e-7;
-    plane.at -= vec2(page * c.grid.page - c.grid.border);
+    // far from the axes' origin, coordinates round to more of a fine texel than the rasteriser's snapping does
+    plane.z += (abs(plane.slope.x) + abs(plane.slope.y)) * size * max(abs(m.uv.x), abs(m.uv.y)) * 1.2e-7;
+    plane.at -= first_texel(page, level) - float(c.grid.border);
     visibility = separable_filter(pool_image, slot, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, false, false);
 }

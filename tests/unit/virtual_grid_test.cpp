@@ -81,7 +81,7 @@ TEST(VirtualGrid, CoarsestPageHoldsTheScene)
         const Grid grid = fit_grid(view, bounds, sun(random.point(1)), {}, 64);
         for (int c = 0; c < 8; ++c) {
             const vec3 p(c & 1 ? bounds.max.x : bounds.min.x, c & 2 ? bounds.max.y : bounds.min.y, c & 4 ? bounds.max.z : bounds.min.z);
-            const vec4 h = grid.face[0].map_from_world * vec4(p, 1);
+            const vec4 h = grid.face[0].map_from_world * vec4(p, 1) + vec4(grid.offset, 0, 0);
             for (const float v : {h.x, h.y, h.z}) {
                 EXPECT_GE(v, -1e-4f);
                 EXPECT_LE(v, 1.0f + 1e-4f);
