@@ -105,6 +105,17 @@ void SceneGpu::draw_indirect(gpu::Encoder& encoder, const DrawOptions& options, 
     }
 }
 
+std::vector<SceneGpu::Drawable> SceneGpu::drawables() const
+{
+    std::vector<Drawable> out;
+    for (uint32_t i = 0; i < impl_->slots.size(); ++i) {
+        const Slot& slot = impl_->slots[i];
+        const MeshRange& range = impl_->ranges[slot.mesh];
+        out.push_back({i, slot.instance, slot.mesh, range.first_index, range.index_count, range.first_vertex, slot.set});
+    }
+    return out;
+}
+
 const gpu::AccelerationStructure& SceneGpu::tlas()
 {
     Impl& s = *impl_;

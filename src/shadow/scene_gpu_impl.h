@@ -58,6 +58,7 @@ struct SceneGpu::Impl {
     gpu::TextureTable textures;
     std::vector<gpu::AccelerationStructure> blas; ///< by mesh; empty entries for meshes that block no light
     gpu::AccelerationStructure tlas;
+    std::shared_ptr<const void> content = std::make_shared<char>();
 };
 
 } // namespace gnomon::shadow
