@@ -46,8 +46,7 @@ bool find_filter_point(out FilterPoint at)
     const float per_metre = 2.0 / (layer.far - layer.near);
     at.slope = receiver_slope(layer, r.p_world, r.n_geometric) * (-per_metre / (stored_per_metre(layer, m.depth) * c.filtering.map.size));
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
-    const float texel = metres_per_texel(layer, m.depth) * per_metre;
-    at.slope *= min(1.0, 50.0 * texel / max(length(at.slope), 1e-20));
+    at.slope *= min(1.0, 50.0 * per_metre / max(length(at.slope / m.texel), 1e-20));
     // as reference_depth: what rounding may take
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
     // and what means of up to 127 x 127 depths may be off by rounding, or a floor would stand behind its own mean

@@ -12,6 +12,7 @@ struct MapPoint {
     float z; // reversed stored depth
     float depth; // linear, metres along the layer's axis
     bool inside; // in front of the layer's eye and within its rim
+    vec2 texel; // metres, across the layer's axis, that a step of one texel in u and in v takes here
 };
 
 // Cube faces in the order +x -x +y -y +z -z of the cube's axes: the major one of p - centre.
@@ -60,21 +61,28 @@ float depth_from_stored(LightMapLayer layer, float z)
     return layer.far - z * (layer.far - layer.near);
 }
 
-float metres_per_texel(LightMapLayer layer, float depth)
-{
-    return layer.texel_metres * (layer.perspective != 0 ? depth : 1.0);
-}
-
 // Linear depth on [-1, 1]: near to far plane.
 float centred_from_depth(LightMapLayer layer, float depth) { return 2.0 * (depth - layer.near) / (layer.far - layer.near) - 1.0; }
+
+// The gradient of u (k = 0) or v in world space, times w. Across the light's ray, along which neither changes.
+vec3 gradient_of_uv(LightMapLayer layer, int k, vec2 uv)
+{
+    const mat4 m = layer.map_from_world;
+    return vec3(m[0][k], m[1][k], m[2][k]) - uv[k] * vec3(m[0][3], m[1][3], m[2][3]);
+}
+
+vec3 across(LightMapLayer layer, vec3 v) { return v - dot(v, layer.depth_plane.xyz) * layer.depth_plane.xyz; }
 
 MapPoint project(LightMapLayer layer, vec3 p_world)
 {
     MapPoint m;
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
     m.uv = h.xy / h.w;
-    m.z = h.z / h.w;
     m.depth = dot(layer.depth_plane, vec4(p_world, 1.0));
+    m.z = layer.warped != 0 ? stored_from_depth(layer, m.depth) : h.z / h.w;
+    if (layer.warped != 0)
+        for (int k = 0; k < 2; ++k) m.texel[k] = layer.texel_uv * h.w / max(length(across(layer, gradient_of_uv(layer, k, m.uv))), 1e-20);
+    else m.texel = vec2(layer.texel_metres * (layer.perspective != 0 ? m.depth : 1.0));
     m.inside = h.w > 0.0 && all(greaterThanEqual(m.uv, vec2(0.0))) && all(lessThanEqual(m.uv, vec2(1.0)));
     return m;
 }

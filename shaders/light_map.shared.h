@@ -12,20 +12,23 @@ SHARED_BEGIN(shaders)
 
 /// Parameters of where a map's layers lie (parts::describe_map).
 struct FitParams {
-    int fit DEFAULT(1); ///< parts::Fit
+    int fit DEFAULT(1); ///< parts::Fit; by name: uniform, focused, cascades, psm, lispsm, tsm, cascades_warped, sdsm
     int cascades DEFAULT(4);
     float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
     int stable DEFAULT(1);
 };
 
-/// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth.
+/// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth. A light's ray
+/// is one point of the map in every layer, warped ones too.
 struct LightMapLayer {
     mat4 map_from_world;
     vec4 depth_plane; ///< linear depth in metres along the layer's axis = dot(depth_plane, (p, 1))
-    float texel_metres; ///< width of a texel: in metres (orthographic) or at 1 m linear depth (perspective)
+    float texel_metres; ///< width of a texel: in metres (orthographic) or at 1 m linear depth (perspective); warped: where it is least
     float near; ///< metres along the axis where stored z = 1
     float far; ///< where stored z = 0
-    uint perspective; ///< 0 or 1
+    uint perspective; ///< 0 or 1: stored z is affine in linear depth, or in its inverse
+    uint warped; ///< 0 or 1: map_from_world's third row is not the stored depth, which fragments write, and texels differ in width
+    float texel_uv; ///< width of a texel in uv
 };
 
 struct LightMap {

@@ -23,7 +23,8 @@ struct SoftPoint {
     vec2 at; // texels, continuous
     float depth; // metres along the layer's axis, moved towards the light by the bias
     vec2 slope; // metres of depth that the receiver's plane gains from texel to texel
-    vec2 light; // half the light's width along the map's axes: metres, or for orthographic layers the tangent of half the angle
+    vec2 texel; // metres, across the layer's axis, that a texel's width takes here
+    vec2 light; // light_half_size
     float horizon; // fraction of the light above the receiver's plane
     Receiver receiver;
 };
@@ -42,9 +43,10 @@ bool find_soft_point(out SoftPoint p)
     const LightMapLayer layer = c.soft.map.layers[p.layer];
     const MapPoint m = project(layer, p_world);
     p.at = m.uv * c.soft.map.size;
+    p.texel = m.texel;
     p.slope = receiver_slope(layer, p_world, n) * (-1.0 / (stored_per_metre(layer, m.depth) * c.soft.map.size));
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
-    p.slope *= min(1.0, 50.0 * metres_per_texel(layer, m.depth) / max(length(p.slope), 1e-20));
+    p.slope *= min(1.0, 50.0 / max(length(p.slope / m.texel), 1e-20));
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
     p.depth = m.depth - rounding - c.soft.params.bias * (abs(p.slope.x) + abs(p.slope.y));
     p.light = light_half_size(layer, c.soft.light, p_world);

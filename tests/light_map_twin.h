@@ -12,6 +12,7 @@ struct MapPoint {
     glm::dvec2 uv;
     double z, depth, w;
     bool inside;
+    glm::dvec2 texel;
 };
 
 inline int select_layer(const shaders::LightMap& map, vec3 p_world)
@@ -45,7 +46,16 @@ inline double depth_from_stored(const shaders::LightMapLayer& layer, double z)
 inline MapPoint project(const shaders::LightMapLayer& layer, vec3 p_world)
 {
     const glm::dvec4 p(glm::dvec3(p_world), 1.0), h = glm::dmat4(layer.map_from_world) * p;
-    MapPoint m{glm::dvec2(h.x, h.y) / h.w, h.z / h.w, glm::dot(glm::dvec4(layer.depth_plane), p), h.w, false};
+    MapPoint m{glm::dvec2(h.x, h.y) / h.w, h.z / h.w, glm::dot(glm::dvec4(layer.depth_plane), p), h.w, false, {}};
+    if (layer.warped) m.z = stored_from_depth(layer, m.depth);
+    // metres across the axis by differences, in place of the shader's derivatives
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(layer.map_from_world));
+    const glm::dvec3 axis(layer.depth_plane);
+    for (int k = 0; k < 2; ++k) {
+        glm::dvec3 gradient = (glm::dvec3(rows[k]) - m.uv[k] * glm::dvec3(rows[3])) / h.w;
+        gradient -= glm::dot(gradient, axis) * axis;
+        m.texel[k] = double(layer.texel_uv) / glm::length(gradient);
+    }
     m.inside = h.w > 0.0 && m.uv.x >= 0.0 && m.uv.y >= 0.0 && m.uv.x <= 1.0 && m.uv.y <= 1.0;
     return m;
 }

@@ -63,6 +63,7 @@ struct Bench {
     Common common;
     Picture picture;
     std::vector<std::string> techniques;
+    std::string reference = "shadow_map:map_size=2048";
     int repeats = 10;
 };
 int bench(const Bench&);

@@ -158,12 +158,13 @@ int run(int argc, char** argv)
     add_common(*compare_app, compare.common);
 
     cli::Bench bench;
-    CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's in the same run");
+    CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's and to a reference technique's in the same run");
     bench.picture.size = "1024x768";
     bench.picture.scene = "citadel";
     add_picture(*bench_app, bench.picture);
     bench_app->get_option("scene")->required(false);
     bench_app->add_option("--techniques", bench.techniques, "Ids with parameters (default: shadow_map)")->delimiter(',');
+    bench_app->add_option("--reference", bench.reference, "Technique that all are divided by")->capture_default_str();
     bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(2, 10000))
         ->capture_default_str();

@@ -100,26 +100,29 @@ struct Sums {
     double deviation() const { return count > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1))) : 0; }
 };
 
-/// Passes of one name in one frame (several lights) are added up.
+/// Passes of one name in one frame (several lights or layers) are added up.
 void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs, std::string_view id)
 {
     const std::string own = std::string(id) + "/";
     std::vector<std::string> names;
     std::map<std::string, Sums> sums;
+    std::map<std::string, int> counts;
     Sums technique;
     for (const auto& run : runs) {
         std::map<std::string, double> frame;
+        counts.clear();
         double total = 0;
         for (const gpu::PassTime& t : run) {
             if (std::find(names.begin(), names.end(), t.name) == names.end()) names.push_back(t.name);
             frame[t.name] += t.ms;
+            ++counts[t.name];
             if (t.name.starts_with(own)) total += t.ms;
         }
         for (const auto& [name, ms] : frame) sums[name].add(ms);
         technique.add(total);
     }
     for (const std::string& name : names)
-        if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation()});
+        if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation(), counts[name]});
     out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
 }
 

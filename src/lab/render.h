@@ -26,6 +26,7 @@ std::string choice_text(const Choice&); ///< what parse_choice reads: the id, an
 struct PassStats {
     std::string name;
     double ms, deviation; ///< mean and standard deviation
+    int count = 1; ///< passes of that name in a frame, whose times are added up
 };
 
 struct RenderSettings {

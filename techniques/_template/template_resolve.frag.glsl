@@ -18,7 +18,8 @@ void main()
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
-    const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
+    const vec2 texels = project(layer, r.p_world).texel;
+    const float texel = max(texels.x, texels.y);
     const MapPoint m = project(layer, r.p_world + r.n_geometric * (c.params.normal_offset * texel));
     visibility = compare_depth(map_image, index, m.uv, reference_depth(layer, m.depth, c.map.depth_step));
 }

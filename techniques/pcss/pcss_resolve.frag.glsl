@@ -37,7 +37,7 @@ ReceiverPlane make_plane(LightMapLayer layer, SoftPoint p, MapPoint m, float rad
     ReceiverPlane plane = coned ? cone_plane(layer, size, depth_step, m, p_world, n, c.params.bias_cone, slope_limit)
                                 : receiver_plane(layer, size, depth_step, m, p_world, n, radius, slope_limit);
     const vec2 tangent = abs(receiver_tangent(layer, size, m, p_world, n, slope_limit));
-    plane.z += c.soft.params.bias * (tangent.x + tangent.y) * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    plane.z += c.soft.params.bias * dot(tangent, m.texel) * stored_per_metre(layer, m.depth);
     return plane;
 }
 

@@ -24,7 +24,8 @@ void main()
     // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a
     // texel covers more depth (Holbert 2011, "Saying Goodbye to Shadow Acne").
     const float cos_light = dot(r.n_geometric, to_light(c.light, r.p_world).xyz);
-    const float texel = metres_per_texel(layer, dot(layer.depth_plane, vec4(r.p_world, 1.0)));
+    const vec2 texels = project(layer, r.p_world).texel;
+    const float texel = max(texels.x, texels.y);
     const vec3 p = r.p_world + r.n_geometric * (c.params.normal_offset * texel * sqrt(max(0.0, 1.0 - cos_light * cos_light)));
 
     const MapPoint m = project(layer, p);

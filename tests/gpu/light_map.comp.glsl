@@ -18,5 +18,5 @@ void main()
     const LightMapLayer layer = cases[i].map.layers[index];
     const MapPoint m = project(layer, p);
     const float stored = stored_from_depth(layer, m.depth);
-    results[i] = MapResult(index, m.uv, m.z, m.depth, m.inside ? 1 : 0, stored, reference_depth(layer, m.depth, cases[i].map.depth_step), depth_from_stored(layer, stored), metres_per_texel(layer, m.depth));
+    results[i] = MapResult(index, m.uv, m.z, m.depth, m.inside ? 1 : 0, stored, reference_depth(layer, m.depth, cases[i].map.depth_step), depth_from_stored(layer, stored), m.texel);
 }

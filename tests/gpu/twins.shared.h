@@ -32,7 +32,7 @@ struct MapResult {
     float stored; ///< stored_from_depth of the depth
     float reference; ///< reference_depth of the depth
     float linear; ///< depth_from_stored of the stored depth
-    float metres; ///< metres_per_texel at the depth
+    vec2 texel; ///< project
 };
 
 struct SoftCase {

@@ -112,9 +112,10 @@ TEST_P(LightMapFitScene, VisibleReceiversAndAllCastersLieInASunsMap)
         for (const char* sun : suns) {
             const std::string what = std::string(GetParam()) + " " + camera.name + " " + sun;
             const scene::Light light = scene::parse_light(sun, {}, bounds);
-            const shaders::LightMap of_view = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::view)}});
+            const shaders::LightMap of_view
+                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::focused)}});
             const shaders::LightMap of_scene
-                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::scene)}});
+                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::uniform)}});
             expect_held(of_view, seen, what + ", fit=view");
             expect_held(of_scene, vertices, what + ", fit=scene");
             expect_consistent(of_view, seen);
@@ -298,8 +299,8 @@ TEST(LightMapFit, OddViewsKeepTheirReceivers)
         scene::Light light;
         light.shape = scene::DirectionalLight{odd.sun, 0.0f};
         for (const int size : {16, 1024}) {
-            for (const shaders::FitParams& fitting : {shaders::FitParams{.fit = int(Fit::view)}, {.fit = int(Fit::cascades), .stable = 0},
-                     {.fit = int(Fit::cascades), .cascades = 8, .split = 1, .stable = 1}}) {
+            for (const shaders::FitParams& fitting : {shaders::FitParams{.fit = int(Fit::focused)},
+                     {.fit = int(Fit::cascades), .stable = 0}, {.fit = int(Fit::cascades), .cascades = 8, .split = 1, .stable = 1}}) {
                 const shaders::LightMap map = fit_light_map(scene, bounds, view, light, {.size = size, .fitting = fitting});
                 expect_consistent(map, {});
                 expect_held(map, visible_points(scene, view), odd.name);
@@ -314,7 +315,7 @@ TEST(LightMapFit, AViewThatSeesNothingStillHasAMap)
     const Bounds bounds = scene.bounds();
     const scene::View away = scene::make_view({"", {0, 3, 80}, {0, 3, 160}}, picture, bounds);
     EXPECT_TRUE(visible_part(away, bounds).empty());
-    for (const Fit fit : {Fit::view, Fit::cascades})
+    for (const Fit fit : {Fit::focused, Fit::cascades})
         for (const int stable : {0, 1})
             expect_consistent(
                 fit_light_map(scene, bounds, away, scene::parse_light("sun", {}, bounds), {.fitting = {.fit = int(fit), .stable = stable}}),
@@ -327,7 +328,7 @@ TEST(LightMapFit, FlatAndPointLikeScenesHaveAMap)
     for (const Bounds& bounds : {Bounds{low, high}, Bounds{low, low}, Bounds{{0, 0, 0}, {0, 5, 0}}})
         for (const char* text : {"sun,elevation=90", "sun,elevation=1", "point,position=0/3/0", "spot,position=0/3/0,target=0/0/0"}) {
             const scene::View view = scene::make_view({"", {0, 4, 6}, {0, 1, 0}}, picture, bounds);
-            for (const Fit fit : {Fit::view, Fit::cascades})
+            for (const Fit fit : {Fit::focused, Fit::cascades})
                 expect_consistent(
                     fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}}), {});
         }

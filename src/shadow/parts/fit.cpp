@@ -63,6 +63,7 @@ shaders::LightMapLayer orthographic_layer(const mat4& axes, vec2 centre, float e
     layer.map_from_world = uv_from_clip * clip * axes;
     layer.depth_plane = row(axes, 2);
     layer.texel_metres = extent / float(size);
+    layer.texel_uv = 1.0f / float(size);
     return layer;
 }
 
@@ -80,6 +81,7 @@ shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float 
     layer.map_from_world = uv_from_clip * clip * axes;
     layer.depth_plane = row(axes, 2);
     layer.texel_metres = 2.0f * tangent / float(size);
+    layer.texel_uv = 1.0f / float(size);
     return layer;
 }
 
@@ -200,7 +202,7 @@ shaders::LightMap fit_light_map(
             return map;
         }
         const std::vector<vec3> casters = corners(bounds);
-        const std::vector<vec3> seen = Fit(settings.fitting.fit) == Fit::view ? visible_part(view, bounds) : casters;
+        const std::vector<vec3> seen = Fit(settings.fitting.fit) == Fit::focused ? visible_part(view, bounds) : casters;
         map.layer_count = 1;
         map.layers[0] = fit_parallel_layer(sun->direction, seen.empty() ? casters : seen, casters, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {

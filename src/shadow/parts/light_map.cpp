@@ -7,10 +7,15 @@ namespace gnomon::shadow::parts {
 
 namespace {
 
-shaders::LightDepthConstants depth_constants(const shaders::LightMap& map)
+shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float slope_bias)
 {
     shaders::LightDepthConstants c{};
-    for (uint32_t i = 0; i < map.layer_count; ++i) c.clip_from_world[i] = clip_from_world(map.layers[i]);
+    for (uint32_t i = 0; i < map.layer_count; ++i) {
+        const shaders::LightMapLayer& layer = map.layers[i];
+        c.clip_from_world[i] = clip_from_world(layer);
+        c.depth_planes[i] = layer.depth_plane;
+        c.ranges[i] = {layer.near, layer.far, float(layer.perspective), slope_bias};
+    }
     return c;
 }
 
@@ -32,7 +37,8 @@ mat4 clip_from_world(const shaders::LightMapLayer& layer)
 Planes caster_planes(const shaders::LightMapLayer& layer)
 {
     Planes planes = frustum_planes(clip_from_world(layer));
-    if (layer.perspective == 0) planes.pop_back();
+    if (layer.perspective == 0 || layer.warped != 0) planes.pop_back();
+    if (layer.perspective != 0 && layer.warped != 0) planes.push_back(layer.depth_plane - vec4(0, 0, 0, layer.near));
     return planes;
 }
 
@@ -70,19 +76,20 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
     gpu::Device& device = passes.device();
     gpu::RasterPass pass;
     pass.name = "light map";
-    pass.program = &device.raster_program("src/shadow/parts/light_depth.vert", before ? "src/shadow/parts/light_depth_peel.frag" : "");
+    const std::string shaders = map.layers[0].warped != 0 ? "src/shadow/parts/light_depth_warped" : "src/shadow/parts/light_depth";
+    const std::string opaque = before ? shaders + "_peel.frag" : map.layers[0].warped != 0 ? shaders + ".frag" : "";
+    pass.program = &device.raster_program(shaders + ".vert", opaque);
     if (before) pass.bindings = {gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
-    pass.constants = depth_constants(map);
+    pass.constants = depth_constants(map, settings.slope_bias);
     pass.depth = gpu::DepthTarget{depth};
     draw_casters(passes, frame, map, settings, std::move(pass),
-        device.raster_program("src/shadow/parts/light_depth_masked.vert",
-            before ? "src/shadow/parts/light_depth_masked_peel.frag" : "src/shadow/parts/light_depth_masked.frag"));
+        device.raster_program(shaders + "_masked.vert", shaders + (before ? "_masked_peel.frag" : "_masked.frag")));
 }
 
 void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int largest)
 {
     fields.integer("map_size", map_size, {16, double(largest)}, "texels", "Width and height of each depth layer.");
-    fields.choice("fit", p.fit, {"scene", "view", "cascades"},
+    fields.choice("fit", p.fit, {"uniform", "focused", "cascades"},
         "What a directional light's map covers: the whole scene, the part of it that the view sees, or that part in several layers, nearer "
         "ones with smaller texels.");
     fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` is cascades.");

@@ -10,8 +10,9 @@
 // filter is written once, against shaders/light_map.glsl, and runs with every fit and every light.
 namespace gnomon::shadow::parts {
 
-/// Of a directional light: the map covers the scene, what the view sees of it, or that in several layers, one behind another.
-enum class Fit : int { scene, view, cascades };
+/// Of a directional light: the map covers the scene, what the view sees of it (the potential shadow receivers), or that in several layers,
+/// one behind another.
+enum class Fit : int { uniform, focused, cascades };
 enum class DepthFormat : int { d32, d16 };
 
 struct LightMapSettings {
