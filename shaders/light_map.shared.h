@@ -6,6 +6,7 @@
 #define LIGHT_MAP_SINGLE 0
 #define LIGHT_MAP_CUBE 1
 #define LIGHT_MAP_CASCADES 2
+#define LIGHT_MAP_TETRAHEDRON 3
 #define LIGHT_MAP_MAX_LAYERS 8
 
 SHARED_BEGIN(shaders)
@@ -16,6 +17,7 @@ struct FitParams {
     int cascades DEFAULT(4);
     float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
     int stable DEFAULT(1);
+    int point_layout DEFAULT(0); ///< parts::PointLayout
 };
 
 /// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth. A light's ray
@@ -36,9 +38,9 @@ struct LightMap {
     uint layer_count;
     float size; ///< texels a side
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
-    vec3 centre; ///< where the layers look from (cube), or the view's eye (cascades)
+    vec3 centre; ///< where the layers look from (cube, tetrahedron), or the view's eye (cascades)
     float padding;
-    mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
+    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
                ///< along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];

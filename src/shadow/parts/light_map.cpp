@@ -99,6 +99,9 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
         "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
         "waste "
         "texels.");
+    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron"},
+        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube, or four wide ones, whose texels are 2.4 times as "
+        "wide.");
 }
 
 LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)

@@ -13,6 +13,8 @@ namespace gnomon::shadow::parts {
 /// Of a directional light: the map covers the scene, what the view sees of it (the potential shadow receivers), or that in several layers,
 /// one behind another.
 enum class Fit : int { uniform, focused, cascades };
+/// Of a point light, or a spot wider than 120 degrees: a cube's six layers, or a tetrahedron's four, whose texels are 2.4 times as wide.
+enum class PointLayout : int { cube, tetrahedron };
 enum class DepthFormat : int { d32, d16 };
 
 struct LightMapSettings {
@@ -33,8 +35,9 @@ struct LightMap {
 void describe_map(Fields&, int& map_size, shaders::FitParams&, int largest);
 
 /// Which layouts exist for a light: directional -> one orthographic layer, or one for each cascade; spot up to 120 degrees -> one
-/// perspective layer; wider spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that
-/// stands as they do: the face along +z is parallel to them, and its rows and columns to a rectangle's sides.
+/// perspective layer; wider spots and points -> six cube faces, or the four of a tetrahedron. Rect and disk lights are taken at their
+/// centre, as points, with a cube that stands as they do: the face along +z is parallel to them, and its rows and columns to a rectangle's
+/// sides.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
 
 /// A filter of `kernel` texels held to what a map can give: a quarter of its side. Wider ones would average unrelated parts of the
