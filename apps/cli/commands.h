@@ -99,6 +99,12 @@ struct Figures {
 };
 int figures(const Figures&);
 
+struct Curves {
+    Common common;
+    std::string output;
+};
+int curves(const Curves&);
+
 struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques

@@ -108,7 +108,8 @@ int run(int argc, char** argv)
     render_app
         ->add_option("--aov", render.aovs,
             "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, "
-            "primitive, position, motion")
+            "primitive, position, motion; of the technique's map, pixels per texel: texel_footprint, texel_footprint_perspective, "
+            "texel_footprint_projection")
         ->delimiter(',');
     render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")
         ->check(CLI::Range(1, 4096))
@@ -181,6 +182,11 @@ int run(int argc, char** argv)
     figures_app->add_option("-o,--output", figures.output, "Folder for the page and its pictures (default: the file's own)");
     add_common(*figures_app, figures.common);
 
+    cli::Curves curves;
+    CLI::App* curves_app = app.add_subcommand("curves", "Plots and tables of light maps' perspective error, from its equations");
+    curves_app->add_option("-o,--output", curves.output, "Folder for them (default: experiments/sampling_error in the checkout)");
+    add_common(*curves_app, curves.common, false);
+
     cli::Sweep sweep;
     cli::Merge merge;
     CLI::App *sweep_app = app.add_subcommand("sweep", "Every combination of an experiment file: results, tables, plots"),
@@ -227,6 +233,7 @@ int run(int argc, char** argv)
         return cli::slice(slice);
     }
     if (*figures_app) return cli::figures(figures);
+    if (*curves_app) return cli::curves(curves);
     if (*sweep_app) return cli::sweep(sweep);
     if (*merge_app) return cli::merge(merge);
     if (*new_app) return cli::new_technique(fresh);

@@ -38,7 +38,8 @@ struct RenderSettings {
     std::set<std::string> aovs; ///< aov_names()
     shadow::LightingSettings lighting;
 };
-const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion
+const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion,
+                                             ///< and texel_footprint, texel_footprint_perspective, texel_footprint_projection
 
 struct Rendered {
     base::Picture radiance; ///< RGB, scene-referred linear; empty unless lit
