@@ -25,6 +25,13 @@ inline int select_layer(const shaders::LightMap& map, vec3 p_world)
         return layer;
     }
     const vec3 d = (p_world - map.centre) * map.axes;
+    if (map.layout_kind == LIGHT_MAP_TETRAHEDRON) {
+        const float along[] = {d.x + d.y + d.z, d.x - d.y - d.z, -d.x + d.y - d.z, -d.x - d.y + d.z};
+        int most = 0;
+        for (int i = 1; i < 4; ++i)
+            if (along[i] > along[most]) most = i;
+        return most;
+    }
     int axis = 2;
     if (std::abs(d.y) >= std::abs(d[axis])) axis = 1;
     if (std::abs(d.x) >= std::abs(d[axis])) axis = 0;

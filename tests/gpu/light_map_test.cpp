@@ -21,6 +21,10 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<shaders::MapCase> cases;
+    const auto add = [&](const shaders::LightMap& map) {
+        for (int i = 0; i < 300; ++i)
+            cases.push_back({map, bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random))});
+    };
     for (const char* text :
         {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5", "point,position=20/9/7",
             "rect,position=0/6/0,target=0/0/0", "rect,position=1/2/0.5,target=3/0/1", "disk,position=-1/2.5/2,target=2/1/-1"})
@@ -29,11 +33,10 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
             const auto format = fit == shadow::parts::Fit::focused ? shadow::parts::DepthFormat::d16 : shadow::parts::DepthFormat::d32;
             const shaders::LightMap map = shadow::parts::fit_light_map(
                 {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit), .blend = 0.5f}, .format = format});
-            for (int i = 0; i < 300; ++i) {
-                const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
-                cases.push_back({map, p});
-            }
+            add(map);
         }
+    add(shadow::parts::fit_light_map({}, bounds, view, scene::parse_light("point,position=0.5/2/-0.5", {}, bounds),
+        {.fitting = {.point_layout = int(shadow::parts::PointLayout::tetrahedron)}}));
     const auto results = gpu::run_glsl_cases<shaders::MapResult>(device(), "tests/gpu/light_map.comp", cases);
     size_t inside = 0, in_bands = 0, warped = 0;
     for (size_t i = 0; i < cases.size(); ++i) {

@@ -158,6 +158,9 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
         "lispsm, cascades_warped: fraction of the depths seen, the nearest, that may have coarser texels for the sake of the rest.");
     fields.real(
         "psm_slide", p.psm_slide, {0, 1}, "", "psm: how far behind the eye the warp has its own, as a fraction of the depths seen.");
+    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron"},
+        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube, or four wide ones, whose texels are 2.4 times as "
+        "wide.");
 }
 
 shaders::FitParams unwarped(shaders::FitParams p)
