@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shadow/parts/light_map.h"
+#include "src/shadow/parts/light_depth.shared.h"
 
 #include <vector>
 
@@ -57,6 +58,10 @@ void draw_casters(
 
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);
+
+/// What the shaders that draw casters take (src/shadow/parts/light_casters.glsl), and the image of their depths.
+shaders::LightDepthConstants depth_constants(const shaders::LightMap&, float slope_bias);
+gpu::ImageDesc depth_image(const shaders::LightMap&, const LightMapSettings&);
 
 /// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
 /// onto it, not lost.

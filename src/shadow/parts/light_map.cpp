@@ -5,8 +5,6 @@
 
 namespace gnomon::shadow::parts {
 
-namespace {
-
 shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float slope_bias)
 {
     shaders::LightDepthConstants c{};
@@ -24,8 +22,6 @@ gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings&
     const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
     return {format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"};
 }
-
-} // namespace
 
 mat4 clip_from_world(const shaders::LightMapLayer& layer)
 {
