@@ -10,7 +10,7 @@
 // The steepest receiver that is followed, metres of depth a metre across: 86.4 degrees from facing the light.
 #define BIAS_SLOPE_LIMIT 16.0
 // Of a cone at scale 1, metres a metre.
-#define BIAS_CONE_OPENING 2.0
+#define BIAS_CONE_OPENING 1.0
 
 bool bias_is_in_map(int kind) { return kind == BIAS_MIDPOINT || kind == BIAS_DUAL_LAYERS; }
 
@@ -39,15 +39,15 @@ ReceiverPlane biased_plane(
     if (kind == BIAS_TEXEL_WORLD || kind == BIAS_IDS) towards += b.scale * depth_within(layer, size, m, p, n, radius);
     m.depth -= towards;
     if (layer.perspective != 0) m.depth = max(m.depth, 0.5 * layer.near); // before all casters
-    if (kind == BIAS_CONE) return cone_plane(layer, size, depth_step, m, p, n, BIAS_CONE_OPENING * b.scale, BIAS_SLOPE_LIMIT);
-    if (kind != BIAS_RECEIVER_PLANE) {
+    if (kind != BIAS_RECEIVER_PLANE && kind != BIAS_CONE) {
         ReceiverPlane r = flat_plane(layer, size, depth_step, m);
         if (kind == BIAS_TEXEL_WORLD || kind == BIAS_NORMAL_OFFSET) // what rasterisers' snapping of vertices takes
             r.z += stored_per_metre(layer, m.depth) * depth_within(layer, size, m, p, n, PLANE_SNAP);
         return r;
     }
     ReceiverPlane r = receiver_plane(layer, size, depth_step, m, p, n, radius, BIAS_SLOPE_LIMIT);
-    r.slope *= b.scale;
+    if (kind == BIAS_CONE) r.cone = BIAS_CONE_OPENING * b.scale * stored_per_metre(layer, m.depth) * max(m.texel.x, m.texel.y);
+    else r.slope *= b.scale;
     return r;
 }
 
