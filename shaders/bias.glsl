@@ -7,8 +7,8 @@
 #include "shaders/bias.shared.h"
 #include "shaders/receiver_plane.glsl"
 
-// The steepest receiver that is followed, metres of depth a metre across: 86.4 degrees from facing the light.
-#define BIAS_SLOPE_LIMIT 16.0
+// The steepest receiver that is followed, metres of depth a metre across: 88.2 degrees from facing the light.
+#define BIAS_SLOPE_LIMIT 32.0
 // Of a cone at scale 1, metres a metre.
 #define BIAS_CONE_OPENING 1.0
 
