@@ -16,6 +16,9 @@ struct FitParams {
     int cascades DEFAULT(4);
     float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
     int stable DEFAULT(1);
+    int warp DEFAULT(0); ///< parts::Falloff
+    float warp_near DEFAULT(0.0f); ///< lispsm: of the depths seen, the nearest part that may do with coarser texels
+    float psm_slide DEFAULT(0.02f); ///< of the depths seen: how far behind the eye psm looks from
 };
 
 /// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth. A light's ray
@@ -37,7 +40,7 @@ struct LightMap {
     float size; ///< texels a side
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube), or the view's eye (cascades)
-    float padding;
+    int fit_used; ///< parts::Fit: what was asked for, or what that gave way to where it does not suit light and view
     mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
                ///< along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end

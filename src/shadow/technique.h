@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/pass_list.h"
 #include "scene/scene.h"
+#include "shaders/light_map.shared.h"
 #include "shadow/gbuffer.h"
 #include "shadow/params.h"
 #include "shadow/scene_gpu.h"
@@ -46,6 +47,7 @@ struct Frame {
     gpu::ImageId output; ///< output_format, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
                          ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
+    shaders::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves its layers here
 };
 
 /// One algorithm for one scene and one light, with what it keeps between frames (a member; a new scene or light is a new object).

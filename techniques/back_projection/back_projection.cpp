@@ -53,6 +53,7 @@ class BackProjection final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& given) override
     {
         Params params = given;
+        params.soft.fitting = parts::unwarped(params.soft.fitting);
         if (params.search == SEARCH_MAP) params.soft.map_size = std::min(params.soft.map_size, 256);
         const parts::SoftMap map = parts::draw_soft_map(passes, frame, params.soft);
         std::vector<gpu::ImageId> layers{map.map.depth};

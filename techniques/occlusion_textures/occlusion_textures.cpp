@@ -115,8 +115,10 @@ gpu::ImageId make_cover(gpu::PassList& passes, gpu::ImageId slices, GroupConstan
 class Method final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        const parts::LightMapSettings settings = parts::soft_map_settings(params.soft);
+        parts::LightMapSettings settings = parts::soft_map_settings(params.soft);
+        settings.fitting = parts::unwarped(settings.fitting);
         const LightMap map = parts::fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
+        if (frame.light_map) *frame.light_map = map;
         ResolveConstants c{};
         c.soft = parts::soft_constants(frame, map, params.soft);
         c.params = params;

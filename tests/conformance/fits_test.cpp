@@ -32,7 +32,7 @@ TEST_P(Fits, CascadesAreNearerToTheTruthThanOneLayer)
         .lights = {GetParam()->soft ? "sun,elevation=35,azimuth=60,angle=1" : "sun,elevation=35,azimuth=60,angle=0"},
         .size = {240, 135}};
     const std::string map = id + ":map_size=256:fit=";
-    options.techniques = {map + "view", map + "cascades:stable_cascades=0", map + "cascades:stable_cascades=1"};
+    options.techniques = {map + "focused", map + "cascades:stable_cascades=0", map + "cascades:stable_cascades=1"};
     options.truth_samples = GetParam()->soft ? 16 : 1;
     options.repeats = 1;
     const lab::Comparison result = lab::compare(*device, options);

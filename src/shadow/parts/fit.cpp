@@ -99,6 +99,9 @@ void depth_range(const Bounds& bounds, vec3 position, float cosine, float& near,
 /// Of a cube's corner, less something for the rim (1 / sqrt(3) without), and of spots of up to 60 degrees.
 constexpr float cube_cosine = 0.5f;
 
+/// Of a square pyramid's corner, with something to spare.
+float corner_cosine(float tangent) { return 0.99f / std::sqrt(1.0f + 2.0f * tangent * tangent); }
+
 /// A face of 90 degrees plus a rim of guard texels: tan = 1 on (size - 2 guard) texels.
 float face_tangent(const LightMapSettings& settings)
 {
@@ -177,7 +180,7 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
     const mat4 axes = centred_axes(position, receivers, tangent);
     if (tangent > 0.0f && tangent <= widest) {
         tangent = std::max(tangent, 1e-4f) * rim_factor(settings);
-        depth_range(casters, position, 0.99f / std::sqrt(1.0f + 2.0f * tangent * tangent), near, far);
+        depth_range(casters, position, corner_cosine(tangent), near, far);
         return {{perspective_layer(axes, tangent, near, far, settings.size)}, {-1}};
     }
     depth_range(casters, position, cube_cosine, near, far);
@@ -190,27 +193,70 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
     return fit;
 }
 
+namespace {
+
+/// The one layer of `map`, focused, as its fit wants it.
+void warp(shaders::LightMap& map, const scene::View& view, const std::vector<vec3>& receivers, const LightMapSettings& settings)
+{
+    const Fit fit = Fit(settings.fitting.fit);
+    if (fit == Fit::uniform || fit == Fit::focused) return;
+    const auto layer = warped_layer(map.layers[0], view, receivers, settings);
+    if (layer)
+        map.layers[0] = *layer;
+    else
+        map.fit_used = int(Fit::focused);
+}
+
+void fit_sun(shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
+{
+    const Fit fit = Fit(settings.fitting.fit);
+    if (fit == Fit::cascades || fit == Fit::cascades_warped) {
+        fit_cascades(map, bounds, view, direction, settings);
+        return;
+    }
+    const std::vector<vec3> casters = corners(bounds);
+    std::vector<vec3> receivers;
+    if (fit != Fit::uniform) receivers = visible_part(view, bounds);
+    map.layer_count = 1;
+    map.layers[0] = fit_parallel_layer(direction, receivers.empty() ? casters : receivers, casters, settings);
+    warp(map, view, receivers, settings);
+}
+
+void fit_spot(
+    shaders::LightMap& map, const Bounds& bounds, const scene::View& view, const scene::SpotLight& spot, const LightMapSettings& settings)
+{
+    float near, far;
+    depth_range(bounds, spot.position, cube_cosine, near, far);
+    mat4 axes = light_axes(spot.position, spot.direction, vec3(0, 1, 0));
+    float tangent = std::tan(spot.outer_angle);
+    std::vector<vec3> receivers;
+    if (Fit(settings.fitting.fit) != Fit::uniform) receivers = visible_part(view, bounds, spot, near * std::cos(spot.outer_angle));
+    if (!receivers.empty()) { // turned to what is seen, where that is less than the cone
+        float seen;
+        const mat4 turned = centred_axes(spot.position, receivers, seen);
+        if (seen > 0.0f && seen < tangent) {
+            axes = turned, tangent = std::max(seen, 1e-4f);
+            depth_range(bounds, spot.position, corner_cosine(tangent * rim_factor(settings)), near, far);
+        }
+    }
+    map.layer_count = 1, map.centre = spot.position;
+    map.layers[0] = perspective_layer(axes, tangent * rim_factor(settings), near, far, settings.size);
+    warp(map, view, receivers, settings);
+}
+
+} // namespace
+
 shaders::LightMap fit_light_map(
     const scene::Scene&, const Bounds& bounds, const scene::View& view, const scene::Light& light, const LightMapSettings& settings)
 {
     shaders::LightMap map{};
     map.size = float(settings.size);
+    map.fit_used = settings.fitting.fit;
     map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
-        if (Fit(settings.fitting.fit) == Fit::cascades) {
-            fit_cascades(map, bounds, view, sun->direction, settings);
-            return map;
-        }
-        const std::vector<vec3> casters = corners(bounds);
-        const std::vector<vec3> seen = Fit(settings.fitting.fit) == Fit::focused ? visible_part(view, bounds) : casters;
-        map.layer_count = 1;
-        map.layers[0] = fit_parallel_layer(sun->direction, seen.empty() ? casters : seen, casters, settings);
+        fit_sun(map, bounds, view, sun->direction, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {
-        float near, far;
-        depth_range(bounds, spot->position, cube_cosine, near, far);
-        map.layer_count = 1, map.centre = spot->position;
-        map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)),
-            std::tan(spot->outer_angle) * rim_factor(settings), near, far, settings.size);
+        fit_spot(map, bounds, view, *spot, settings);
     } else if (spot) {
         fit_cube(map, bounds, spot->position, mat3(1), settings);
     } else if (const auto* point = std::get_if<scene::PointLight>(&light.shape)) {

@@ -4,6 +4,7 @@
 #include "shadow/parts/light_map.h"
 #include "src/shadow/parts/light_depth.shared.h"
 
+#include <optional>
 #include <vector>
 
 // What light maps are fitted from, for techniques that place layers of their own.
@@ -33,6 +34,12 @@ std::vector<float> cascade_ends(float near, float far, int count, float split);
 
 /// A layer for each cascade.
 void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 direction, const LightMapSettings&);
+
+/// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
+/// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+std::optional<shaders::LightMapLayer> warped_layer(
+    const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 
 /// What one perspective layer, or the faces of a cube, see from a point of a light.
 struct PointFit {

@@ -47,6 +47,17 @@ shaders::LightMapLayer stable_layer(
     return orthographic_layer(axes, glm::floor(centre / texel + 0.5f) * texel, extent, depths, depths, settings.size);
 }
 
+/// Each layer as lispsm has it; false where that is none. What a warp does not suit is drawn with the others, by one program.
+bool warp_cascades(
+    shaders::LightMap& map, const scene::View& view, const std::vector<std::vector<vec3>>& slices, const LightMapSettings& settings)
+{
+    bool any = false;
+    for (size_t i = 0; i < slices.size(); ++i)
+        if (const auto layer = warped_layer(map.layers[i], view, slices[i], settings)) map.layers[i] = *layer, any = true;
+    for (size_t i = 0; any && i < slices.size(); ++i) map.layers[i].warped = 1;
+    return any;
+}
+
 } // namespace
 
 std::vector<float> cascade_ends(float near, float far, int count, float split)
@@ -62,6 +73,7 @@ std::vector<float> cascade_ends(float near, float far, int count, float split)
 
 void fit_cascades(shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
 {
+    const bool stable = settings.fitting.stable != 0 && Fit(settings.fitting.fit) == Fit::cascades;
     const std::vector<vec3> casters = corners(bounds);
     std::vector<vec3> seen = visible_part(view, bounds);
     if (seen.empty()) seen = casters;
@@ -69,7 +81,7 @@ void fit_cascades(shaders::LightMap& map, const Bounds& bounds, const scene::Vie
     const float eye = glm::dot(forward, view.eye);
     vec2 range = depths_along(seen, forward, eye);
     // What stays where it is while the view moves: the near plane, and as far as the scene is wide; from outside, steps of that.
-    if (settings.fitting.stable != 0) {
+    if (stable) {
         const float step = 2.0f * std::max(bounds.radius(), 1e-3f);
         range = {std::min(view.near, step * std::floor(range.x / step)), step * std::max(1.0f, std::ceil(range.y / step))};
     }
@@ -85,15 +97,18 @@ void fit_cascades(shaders::LightMap& map, const Bounds& bounds, const scene::Vie
     map.axes[2] = forward;
     for (int i = 0; i < LIGHT_MAP_MAX_LAYERS; ++i)
         map.splits[i / 4][i % 4] = i < count - 1 ? ends[size_t(i)] : std::numeric_limits<float>::max();
+    std::vector<std::vector<vec3>> slices; // what each layer's receivers lie within
     for (int i = 0; i < count; ++i) {
         const vec2 slice(i == 0 ? range.x : ends[size_t(i - 1)], ends[size_t(i)]);
-        if (settings.fitting.stable != 0) {
+        if (stable) {
             map.layers[i] = stable_layer(view, direction, bounds, slice, settings);
             continue;
         }
         const std::vector<vec3> receivers = visible_part(view, bounds, slice.x, slice.y);
         map.layers[i] = fit_parallel_layer(direction, receivers.empty() ? seen : receivers, casters, settings);
+        slices.push_back(receivers.empty() ? seen : receivers);
     }
+    if (Fit(settings.fitting.fit) == Fit::cascades_warped && !warp_cascades(map, view, slices, settings)) map.fit_used = int(Fit::cascades);
 }
 
 } // namespace gnomon::shadow::parts

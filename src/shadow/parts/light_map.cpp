@@ -3,7 +3,15 @@
 
 #include "src/shadow/parts/light_depth.shared.h"
 
+#include <fmt/format.h>
+
 namespace gnomon::shadow::parts {
+
+namespace {
+
+const std::vector<std::string> fit_names{"uniform", "focused", "cascades", "psm", "lispsm", "tsm", "cascades_warped"};
+
+} // namespace
 
 shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float slope_bias)
 {
@@ -48,7 +56,8 @@ void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::Ligh
     pass.textures = &scene.textures();
     pass.layers = map.layer_count;
     pass.cull = settings.cull;
-    pass.depth_clamp = map.layers[0].perspective == 0;
+    // of warped layers nothing is clipped in depth but what lies behind the projection: w < 0
+    pass.depth_clamp = map.layers[0].perspective == 0 && map.layers[0].warped == 0;
     pass.depth_bias = settings.slope_bias != 0.0f;
     pass.streams = {SceneGpu::position_stream(), SceneGpu::attribute_stream()};
     pass.draw = [&scene, &masked, &opaque, map, settings](gpu::Encoder& encoder) {
@@ -72,6 +81,7 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
     gpu::Device& device = passes.device();
     gpu::RasterPass pass;
     pass.name = "light map";
+    if (map.fit_used != settings.fitting.fit) pass.name += fmt::format(" ({})", fit_names[size_t(map.fit_used)]);
     const std::string shaders = map.layers[0].warped != 0 ? "src/shadow/parts/light_depth_warped" : "src/shadow/parts/light_depth";
     const std::string opaque = before ? shaders + "_peel.frag" : map.layers[0].warped != 0 ? shaders + ".frag" : "";
     pass.program = &device.raster_program(shaders + ".vert", opaque);
@@ -85,22 +95,40 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
 void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int largest)
 {
     fields.integer("map_size", map_size, {16, double(largest)}, "texels", "Width and height of each depth layer.");
-    fields.choice("fit", p.fit, {"uniform", "focused", "cascades"},
-        "What a directional light's map covers: the whole scene, the part of it that the view sees, or that part in several layers, nearer "
-        "ones with smaller texels.");
-    fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` is cascades.");
+    fields.choice("fit", p.fit, fit_names,
+        "What the map of a sun or spot covers: all that it lights, the part that the view sees, or that part with smaller texels near the "
+        "eye: "
+        "a sun's in several layers (cascades); warped by the view's perspective (psm), or across the light by a chosen one (lispsm, tsm); "
+        "or "
+        "both. What does not suit light and view gives way to focused.");
+    fields.integer("cascades", p.cascades, {1, LIGHT_MAP_MAX_LAYERS}, "layers", "How many, where `fit` has cascades.");
     fields.real("cascade_split", p.split, {0, 1}, "",
         "Cascades' ends: 0, each as long as the others; 1, each the same multiple of the one before; between.");
     fields.flag("stable_cascades", p.stable,
         "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
         "waste "
         "texels.");
+    fields.choice("warp", p.warp, {"lloyd", "sine"},
+        "lispsm, cascades_warped: how the warp fades where the light shines along the view, after Lloyd, or by the sine of their angle.");
+    fields.real("warp_near", p.warp_near, {0, 0.5}, "",
+        "lispsm, cascades_warped: fraction of the depths seen, the nearest, that may have coarser texels for the sake of the rest.");
+    fields.real(
+        "psm_slide", p.psm_slide, {0, 1}, "", "psm: how far behind the eye the warp has its own, as a fraction of the depths seen.");
+}
+
+shaders::FitParams unwarped(shaders::FitParams p)
+{
+    const Fit fit = Fit(p.fit);
+    if (fit == Fit::psm || fit == Fit::lispsm || fit == Fit::tsm) p.fit = int(Fit::focused);
+    if (fit == Fit::cascades_warped) p.fit = int(Fit::cascades);
+    return p;
 }
 
 LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
 {
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
+    if (frame.light_map) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
     draw_light_layers(passes, frame, out.constants, settings, out.depth);
     return out;

@@ -10,9 +10,12 @@
 // filter is written once, against shaders/light_map.glsl, and runs with every fit and every light.
 namespace gnomon::shadow::parts {
 
-/// Of a directional light: the map covers the scene, what the view sees of it (the potential shadow receivers), or that in several layers,
-/// one behind another.
-enum class Fit : int { uniform, focused, cascades };
+/// What the map of a directional light, or of a spot that has one layer, covers: all that it may light, or what the view sees of that (the
+/// potential shadow receivers), in one layer, in several one behind another, or warped, so that texels are smaller near the eye
+/// (fit_warped.cpp). Cubes cover everything.
+enum class Fit : int { uniform, focused, cascades, psm, lispsm, tsm, cascades_warped };
+/// How a warp fades where the light shines along the view (warp_parameter.h).
+enum class Falloff : int { lloyd, sine };
 enum class DepthFormat : int { d32, d16 };
 
 struct LightMapSettings {
@@ -31,6 +34,9 @@ struct LightMap {
 
 /// Describes the parameters that every technique with a light map has. `largest`: texels a side, by what else it keeps of a map.
 void describe_map(Fields&, int& map_size, shaders::FitParams&, int largest);
+
+/// The same without warps, for those who need texels of one width.
+shaders::FitParams unwarped(shaders::FitParams);
 
 /// Which layouts exist for a light: directional -> one orthographic layer, or one for each cascade; spot up to 120 degrees -> one
 /// perspective layer; wider spots and points -> six cube faces. Rect and disk lights are taken at their centre, as points, with a cube that
