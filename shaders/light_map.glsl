@@ -119,6 +119,15 @@ MapPoint project(LightMapLayer layer, vec3 p_world)
     return m;
 }
 
+// The point of the light's ray through `uv` at that linear depth: where the planes of one u, of one v and of the depth meet.
+vec3 world_from_map(LightMapLayer layer, vec2 uv, float depth)
+{
+    const mat4 rows = transpose(layer.map_from_world);
+    const vec4 a = rows[0] - uv.x * rows[3], b = rows[1] - uv.y * rows[3], d = layer.depth_plane;
+    const vec3 bd = cross(b.xyz, d.xyz), da = cross(d.xyz, a.xyz), ab = cross(a.xyz, b.xyz);
+    return (-a.w * bd - b.w * da + (depth - d.w) * ab) / dot(a.xyz, bd);
+}
+
 float fetch_depth(sampler2DArray map, int layer_index, ivec2 texel)
 {
     return texelFetch(map, ivec3(texel, layer_index), 0).r;

@@ -17,11 +17,11 @@ struct FitParams {
     int cascades DEFAULT(4);
     float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
     int stable DEFAULT(1);
+    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
+    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
     int warp DEFAULT(0); ///< parts::Falloff
     float warp_near DEFAULT(0.0f); ///< lispsm: of the depths seen, the nearest part that may do with coarser texels
     float psm_slide DEFAULT(0.02f); ///< of the depths seen: how far behind the eye psm looks from
-    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
-    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
     int point_layout DEFAULT(0); ///< parts::PointLayout
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shadow/parts/light_map.h"
+#include "src/shadow/parts/light_depth.shared.h"
 
 #include <optional>
 #include <vector>
@@ -71,6 +72,14 @@ void draw_casters(gpu::PassList&, const Frame&, const shaders::LightMap& map, co
 
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);
+
+/// draw_light_map's steps: where the layers lie and their image, not drawn yet; then what the GPU says about drawing them.
+LightMap lay_out_map(gpu::PassList&, const Frame&, const LightMapSettings&);
+OnGpu chosen_on_gpu(gpu::PassList&, const Frame&, const LightMap&, const LightMapSettings&);
+
+/// What the shaders that draw casters take (src/shadow/parts/light_casters.glsl), and the image of their depths.
+gpu::Constants caster_constants(const shaders::LightMap&, float slope_bias, gpu::BufferId fitted = {});
+gpu::ImageDesc depth_image(const shaders::LightMap&, const LightMapSettings&);
 
 /// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
 /// onto it, not lost.

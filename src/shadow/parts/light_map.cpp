@@ -18,7 +18,9 @@ namespace {
 
 const std::vector<std::string> fit_names{"uniform", "focused", "cascades", "psm", "lispsm", "tsm", "cascades_warped", "sdsm"};
 
-shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float slope_bias)
+} // namespace
+
+gpu::Constants caster_constants(const shaders::LightMap& map, float slope_bias, gpu::BufferId fitted)
 {
     shaders::LightDepthConstants c{};
     for (uint32_t i = 0; i < map.layer_count; ++i) {
@@ -27,7 +29,11 @@ shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float
         c.depth_planes[i] = layer.depth_plane;
         c.ranges[i] = {layer.near, layer.far, float(layer.perspective), slope_bias};
     }
-    return c;
+    gpu::Constants out(c);
+    if (fitted)
+        out.patches = {{fitted, offsetof(shaders::FittedMap, clip_from_world), offsetof(shaders::LightDepthConstants, clip_from_world),
+            sizeof(shaders::FittedMap::clip_from_world)}};
+    return out;
 }
 
 gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings& settings)
@@ -35,8 +41,6 @@ gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings&
     const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
     return {format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"};
 }
-
-} // namespace
 
 namespace {
 
@@ -125,10 +129,7 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
     const std::string opaque = before ? shaders + "_peel.frag" : map.layers[0].warped != 0 ? shaders + ".frag" : "";
     pass.program = &device.raster_program(shaders + ".vert", opaque);
     if (before) pass.bindings = {gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
-    pass.constants = depth_constants(map, settings.slope_bias);
-    if (on_gpu.fitted)
-        pass.constants.patches = {{on_gpu.fitted, offsetof(shaders::FittedMap, clip_from_world),
-            offsetof(shaders::LightDepthConstants, clip_from_world), sizeof(shaders::FittedMap::clip_from_world)}};
+    pass.constants = caster_constants(map, settings.slope_bias, on_gpu.fitted);
     pass.depth = gpu::DepthTarget{depth};
     draw_casters(passes, frame, map, settings, std::move(pass),
         device.raster_program(shaders + "_masked.vert", shaders + (before ? "_masked_peel.frag" : "_masked.frag")), on_gpu.commands);
@@ -171,7 +172,7 @@ shaders::FitParams unwarped(shaders::FitParams p)
     return p;
 }
 
-LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+LightMap lay_out_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
 {
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
@@ -179,10 +180,20 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     if (Fit(settings.fitting.fit) == Fit::sdsm && sun) out.fitted = fit_to_samples(passes, frame, settings, out.constants);
     if (frame.light_map) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
-    OnGpu on_gpu{out.fitted, {}};
-    if (settings.culling == Culling::receivers && sun && out.constants.layers[0].warped == 0)
-        on_gpu.commands = cull_casters(passes, frame, out, settings.guard_texels + settings.offset_texels);
-    draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, on_gpu);
+    return out;
+}
+
+OnGpu chosen_on_gpu(gpu::PassList& passes, const Frame& frame, const LightMap& map, const LightMapSettings& settings)
+{
+    const bool sun = frame.light.kind() == scene::LightKind::directional;
+    if (settings.culling != Culling::receivers || !sun || map.constants.layers[0].warped != 0) return {map.fitted, {}};
+    return {map.fitted, cull_casters(passes, frame, map, settings.guard_texels + settings.offset_texels)};
+}
+
+LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+{
+    const LightMap out = lay_out_map(passes, frame, settings);
+    draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, chosen_on_gpu(passes, frame, out, settings));
     return out;
 }
 
