@@ -81,6 +81,7 @@ struct TechniqueInfo {
     bool soft = false; ///< computes penumbrae of lights with an area; false: treats every light as its centre
     bool textured = false; ///< of a light with an image it writes the visibility in each channel, in the format of transmittance; false:
                            ///< takes the light as uniform
+    bool partial = false; ///< shadows only some surfaces, or by some casters, as its page says; all else is lit as if nothing cast
     bool exact = false; ///< differs from truth only in a stated band at true edges
     bool temporal = false; ///< keeps state between frames: the lab warms it up and tests it from a reset
     ParamTable (*params)() = no_params;

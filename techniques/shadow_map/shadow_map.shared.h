@@ -14,6 +14,7 @@ struct Params {
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
     BiasParams bias;
+    int culling DEFAULT(1);
 };
 
 struct ResolveConstants {

@@ -34,21 +34,25 @@ uint instance_of(uint primitive)
     return starts.first_primitive[first];
 }
 
+float lit_in_layer(Receiver r, int index)
+{
+    bool inside;
+    const ReceiverPlane plane = biased_plane(
+        bias, c.params.bias, c.map.layers[index], c.map.size, c.map.depth_step, c.light, r.p_world, r.n_geometric, c.reach, inside);
+    if (!inside) return 1.0;
+    if (bias == BIAS_IDS) {
+        const uint own = instance_of(texelFetch(primitive_image, ivec2(gl_FragCoord.xy), 0).r);
+        return ids_filter(map_image, ids_image, index, plane, own, pcf, bilinear);
+    }
+    return separable_filter(
+        map_image, index, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, bias == BIAS_CONE, false);
+}
+
 void main()
 {
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
-    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
-    bool inside;
-    const ReceiverPlane plane = biased_plane(
-        bias, c.params.bias, c.map.layers[index], c.map.size, c.map.depth_step, c.light, r.p_world, r.n_geometric, c.reach, inside);
-    visibility = 1.0;
-    if (!inside) return;
-    if (bias == BIAS_IDS) {
-        const uint own = instance_of(texelFetch(primitive_image, ivec2(gl_FragCoord.xy), 0).r);
-        visibility = ids_filter(map_image, ids_image, index, plane, own, pcf, bilinear);
-        return;
-    }
-    visibility = separable_filter(
-        map_image, index, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, bias == BIAS_CONE, false);
+    const Layers layers = select_layers(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, c.map.bands, r.p_world);
+    visibility = 0.0;
+    for (int i = 0; i < count_of(layers); ++i) visibility += share_of(layers, i) * lit_in_layer(r, layers.first + i);
 }
