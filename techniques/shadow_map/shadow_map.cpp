@@ -6,7 +6,6 @@
 #include "shadow/parts/bias.h"
 #include "shadow/technique.h"
 
-#include <cmath>
 #include <cstddef>
 
 namespace gnomon::techniques::shadow_map {
@@ -24,7 +23,8 @@ void describe(Params& p, Fields& fields)
     parts::describe_bias(fields, p.bias, true);
     fields.choice("culling", p.culling, {"none", "frustum", "receivers"},
         "Which instances are not drawn: none; those outside of a layer; or, under a sun, all that lie between it and no receiver that is "
-        "seen. Pictures are the same.");
+        "seen. "
+        "Pictures are the same.");
 }
 
 class ShadowMap final : public TechniqueWith<Params> {
@@ -43,22 +43,21 @@ private:
             .fitting = params.fitting,
             .format = parts::DepthFormat(params.depth),
             .culling = parts::Culling(params.culling),
-            .offset_texels = params.bias.kind == BIAS_NORMAL_OFFSET ? std::sqrt(2.0f) * params.bias.scale * reach : 0.0f,
             .guard_texels = reach + 1.0f};
+        const parts::LightMap map = parts::draw_biased_map(passes, frame, settings, params.bias, reach);
         const bool by_id = params.bias.kind == BIAS_IDS;
         if (by_id && !starts_) starts_ = parts::instance_starts(device_, frame.scene);
-        const parts::IdMap map = by_id ? parts::draw_id_map(passes, frame, settings)
-                                       : parts::IdMap{parts::draw_biased_map(passes, frame, settings, params.bias, reach), {}};
+        const gpu::ImageId ids = by_id ? parts::draw_light_ids(passes, frame, map, settings) : frame.gbuffer.primitive;
         const gpu::SpecConstant modes[] = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bias.kind)}, {2, uint32_t(params.bilinear)}};
         passes.fullscreen({.name = "resolve",
             .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", modes),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
-                gpu::Binding(map.map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {frame.gbuffer.primitive, gpu::Use::sample},
-                gpu::Binding(by_id ? map.ids : frame.gbuffer.primitive, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+                gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {frame.gbuffer.primitive, gpu::Use::sample},
+                gpu::Binding(ids, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 {passes.import(by_id ? starts_ : frame.resources.instances()), gpu::Use::load}},
             .constants = parts::with_map(ResolveConstants{view_constants(frame.view, frame.index),
-                                             light_constants(frame.light, frame.resources.bounds()), map.map.constants, params, reach},
-                map.map, offsetof(ResolveConstants, map)),
+                                             light_constants(frame.light, frame.resources.bounds()), map.constants, params, reach},
+                map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "technique_fixture.h"
 
+#include "shaders/bias.shared.h"
+
 #include "scene/load.h"
 #include "shadow/parts/cull.h"
 #include "shadow/parts/fit.h"
@@ -93,10 +95,10 @@ TEST_F(Cull, ChangesNoPixel)
     for (const scene::Camera& camera : {low, beside})
         for (const char* sun : suns)
             for (const Fit fit : {Fit::focused, Fit::cascades, Fit::sdsm})
-                for (const double offset : {0.0, 3.0}) {
+                for (const int bias : {BIAS_CONE, BIAS_NORMAL_OFFSET, BIAS_DUAL_LAYERS, BIAS_IDS}) {
                     const auto with = [&](double culling) {
                         return draw(technique_shadow_map, s, camera, picture, sun,
-                            {{"map_size", 512}, {"fit", double(fit)}, {"normal_offset", offset}, {"pcf", 5}, {"culling", culling}});
+                            {{"map_size", 512}, {"fit", double(fit)}, {"bias", double(bias)}, {"pcf", 5}, {"culling", culling}});
                     };
                     const std::vector<float> all = with(0);
                     EXPECT_GT(mean(all), 0.05);

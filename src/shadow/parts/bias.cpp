@@ -4,6 +4,8 @@
 #include "shadow/parts/fit.h"
 #include "src/shadow/parts/bias.shared.h"
 
+#include <cstddef>
+
 namespace gnomon::shadow::parts {
 
 namespace {
@@ -11,11 +13,9 @@ namespace {
 /// Of polygon offset, a texel of the filter's width. Half a texel's slope would do for a plane whose slope lies along one axis of the map.
 constexpr float slope_factor = 0.75f;
 
-gpu::ImageId between_layers(gpu::PassList& passes, const LightMap& first, gpu::ImageId second, const LightMapSettings& settings,
-    const shaders::BiasParams& bias, float reach)
+gpu::ImageId between_layers(gpu::PassList& passes, const LightMap& first, gpu::ImageId second, const shaders::BiasParams& bias, float reach)
 {
-    gpu::ImageDesc desc = passes.desc(first.depth);
-    if (settings.format == DepthFormat::d16) desc.format = VK_FORMAT_D16_UNORM;
+    const gpu::ImageDesc desc = passes.desc(first.depth);
     const gpu::ImageId depth = passes.transient(desc);
     const uint32_t layers = desc.layers;
     gpu::RasterPass pass;
@@ -23,9 +23,9 @@ gpu::ImageId between_layers(gpu::PassList& passes, const LightMap& first, gpu::I
     pass.program = &passes.device().raster_program("shaders/fullscreen_layers.vert", "src/shadow/parts/bias_layers.frag");
     pass.bindings = {gpu::Binding(first.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
         gpu::Binding(second, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
-    pass.constants
-        = with_map(shaders::BiasLayersConstants{first.constants, bias.constant, bias.scale * reach, bias.kind == BIAS_DUAL_LAYERS ? 1u : 0u},
-            first, offsetof(shaders::BiasLayersConstants, map));
+    pass.constants = with_map(
+        shaders::BiasLayersConstants{first.constants, bias.constant, bias.scale * reach, bias.kind == BIAS_DUAL_LAYERS ? 1u : 0u}, first,
+        offsetof(shaders::BiasLayersConstants, map));
     pass.depth = gpu::DepthTarget{depth};
     pass.layers = layers;
     pass.draw = [layers](gpu::Encoder& encoder) { encoder.draw(3, layers); };
@@ -54,38 +54,36 @@ LightMap draw_biased_map(
 {
     LightMapSettings settings = wanted;
     if (bias.kind == BIAS_SLOPE) settings.slope_bias = slope_factor * bias.scale * 2.0f * reach;
+    // across the map, d / L times sin(a)
+    if (bias.kind == BIAS_NORMAL_OFFSET) settings.offset_texels = 1.4143f * bias.scale * reach;
     if (bias.kind == BIAS_SECOND_DEPTH) settings.cull = VK_CULL_MODE_FRONT_BIT;
     if (bias.kind != BIAS_MIDPOINT && bias.kind != BIAS_DUAL_LAYERS) return draw_light_map(passes, frame, settings);
-    // Rounded to 16 bits, half of a surface would lie behind itself, and be its own second layer.
     settings.format = DepthFormat::d32;
     LightMap map = draw_light_map(passes, frame, settings);
     const gpu::ImageId second = peel_light_map(passes, frame, map, settings, map.depth);
-    map.depth = between_layers(passes, map, second, wanted, bias, reach);
-    if (wanted.format == DepthFormat::d16) map.constants.depth_step = 1.0f / 65535.0f;
+    map.depth = between_layers(passes, map, second, bias, reach);
     return map;
 }
 
-IdMap draw_id_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+gpu::ImageId draw_light_ids(gpu::PassList& passes, const Frame& frame, const LightMap& map, const LightMapSettings& settings)
 {
-    IdMap out;
-    out.map = lay_out_map(passes, frame, settings);
-    const OnGpu on_gpu = chosen_on_gpu(passes, frame, out.map, settings);
-    gpu::ImageDesc desc = passes.desc(out.map.depth);
+    gpu::ImageDesc desc = passes.desc(map.depth);
+    const gpu::ImageId depth = passes.transient(desc);
     desc.format = VK_FORMAT_R32_UINT, desc.name = "light ids";
-    out.ids = passes.transient(desc);
-    const std::string shader = out.map.constants.layers[0].warped != 0 ? "src/shadow/parts/light_ids_warped" : "src/shadow/parts/light_ids";
+    const gpu::ImageId ids = passes.transient(desc);
+    const std::string shader = map.constants.layers[0].warped != 0 ? "src/shadow/parts/light_ids_warped" : "src/shadow/parts/light_ids";
     const auto program = [&](bool masked) -> const gpu::Program& {
         const gpu::SpecConstant spec[] = {{0, masked ? 1u : 0u}};
         return passes.device().raster_program(shader + ".vert", shader + ".frag", spec);
     };
     gpu::RasterPass pass;
-    pass.name = "light map";
+    pass.name = "light ids";
     pass.program = &program(false);
-    pass.constants = caster_constants(out.map.constants, 0.0f, on_gpu.fitted);
-    pass.colors = {{out.ids, gpu::Load::clear, {.uint32 = {~0u}}}};
-    pass.depth = gpu::DepthTarget{out.map.depth};
-    draw_casters(passes, frame, out.map.constants, settings, std::move(pass), program(true), on_gpu.commands);
-    return out;
+    pass.constants = caster_constants(map.constants, 0.0f, map.fitted);
+    pass.colors = {{ids, gpu::Load::clear, {.uint32 = {~0u}}}};
+    pass.depth = gpu::DepthTarget{depth};
+    draw_casters(passes, frame, map.constants, settings, std::move(pass), program(true));
+    return ids;
 }
 
 gpu::Buffer instance_starts(gpu::Device& device, const scene::Scene& scene)

@@ -16,15 +16,12 @@ void describe_bias(Fields&, shaders::BiasParams&, bool ids);
 ///   second_depth: back faces alone (Wang and Molnar 1994)
 ///   midpoint: half-way between the first two surfaces (Woo 1992); where there is one, b behind it
 ///   dual_layers: the same, b at most (Weiskopf and Ertl 2003)
-/// with b = constant + scale * reach * texel.
+/// with b = constant + scale * reach * texel. Maps of two layers have 32 bits whatever the format: rounded to 16, half of a surface would
+/// lie behind itself, and be its own second layer.
 LightMap draw_biased_map(gpu::PassList&, const Frame&, const LightMapSettings&, const shaders::BiasParams&, float reach);
 
-/// draw_light_map with whose each texel is.
-struct IdMap {
-    LightMap map;
-    gpu::ImageId ids; ///< R32UI, layers as the map's: first_primitive of the instance; 0xffffffff where there is none
-};
-IdMap draw_id_map(gpu::PassList&, const Frame&, const LightMapSettings&);
+/// Whose each texel of the map is. R32UI, layers as the map's: first_primitive of the instance; 0xffffffff where there is none.
+gpu::ImageId draw_light_ids(gpu::PassList&, const Frame&, const LightMap&, const LightMapSettings&);
 
 /// For shaders/ids.glsl: how many instances there are, then their first primitives, ascending.
 gpu::Buffer instance_starts(gpu::Device&, const scene::Scene&);

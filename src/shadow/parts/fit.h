@@ -2,7 +2,6 @@
 #pragma once
 
 #include "shadow/parts/light_map.h"
-#include "src/shadow/parts/light_depth.shared.h"
 
 #include <optional>
 #include <vector>
@@ -38,7 +37,8 @@ void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 di
 
 /// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
 /// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
-/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm
+/// with Lloyd's falloff, the storage factor would grow.
 std::optional<shaders::LightMapLayer> warped_layer(
     const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 
@@ -73,13 +73,8 @@ void draw_casters(gpu::PassList&, const Frame&, const shaders::LightMap& map, co
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);
 
-/// draw_light_map's steps: where the layers lie and their image, not drawn yet; then what the GPU says about drawing them.
-LightMap lay_out_map(gpu::PassList&, const Frame&, const LightMapSettings&);
-OnGpu chosen_on_gpu(gpu::PassList&, const Frame&, const LightMap&, const LightMapSettings&);
-
-/// What the shaders that draw casters take (src/shadow/parts/light_casters.glsl), and the image of their depths.
-gpu::Constants caster_constants(const shaders::LightMap&, float slope_bias, gpu::BufferId fitted = {});
-gpu::ImageDesc depth_image(const shaders::LightMap&, const LightMapSettings&);
+/// What the shaders that draw casters take (shaders::LightDepthConstants). `fitted`: as LightMap::fitted.
+gpu::Constants caster_constants(const shaders::LightMap&, float slope_bias, gpu::BufferId fitted);
 
 /// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
 /// onto it, not lost.

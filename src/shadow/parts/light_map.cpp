@@ -6,9 +6,9 @@
 #include "src/shadow/casters.shared.h"
 #include "src/shadow/parts/light_depth.shared.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cstddef>
+#include <fmt/format.h>
 #include <span>
 #include <stdexcept>
 
@@ -18,9 +18,7 @@ namespace {
 
 const std::vector<std::string> fit_names{"uniform", "focused", "cascades", "psm", "lispsm", "tsm", "cascades_warped", "sdsm"};
 
-} // namespace
-
-gpu::Constants caster_constants(const shaders::LightMap& map, float slope_bias, gpu::BufferId fitted)
+shaders::LightDepthConstants depth_constants(const shaders::LightMap& map, float slope_bias)
 {
     shaders::LightDepthConstants c{};
     for (uint32_t i = 0; i < map.layer_count; ++i) {
@@ -29,11 +27,7 @@ gpu::Constants caster_constants(const shaders::LightMap& map, float slope_bias, 
         c.depth_planes[i] = layer.depth_plane;
         c.ranges[i] = {layer.near, layer.far, float(layer.perspective), slope_bias};
     }
-    gpu::Constants out(c);
-    if (fitted)
-        out.patches = {{fitted, offsetof(shaders::FittedMap, clip_from_world), offsetof(shaders::LightDepthConstants, clip_from_world),
-            sizeof(shaders::FittedMap::clip_from_world)}};
-    return out;
+    return c;
 }
 
 gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings& settings)
@@ -41,6 +35,8 @@ gpu::ImageDesc depth_image(const shaders::LightMap& map, const LightMapSettings&
     const VkFormat format = settings.format == DepthFormat::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
     return {format, {settings.size, settings.size}, map.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "light map"};
 }
+
+} // namespace
 
 namespace {
 
@@ -82,6 +78,15 @@ Planes caster_planes(const shaders::LightMapLayer& layer)
     if (layer.perspective == 0 || layer.warped != 0) planes.pop_back();
     if (layer.perspective != 0 && layer.warped != 0) planes.push_back(layer.depth_plane - vec4(0, 0, 0, layer.near));
     return planes;
+}
+
+gpu::Constants caster_constants(const shaders::LightMap& map, float slope_bias, gpu::BufferId fitted)
+{
+    gpu::Constants constants = depth_constants(map, slope_bias);
+    if (fitted)
+        constants.patches = {{fitted, offsetof(shaders::FittedMap, clip_from_world),
+            offsetof(shaders::LightDepthConstants, clip_from_world), sizeof(shaders::FittedMap::clip_from_world)}};
+    return constants;
 }
 
 void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
@@ -172,7 +177,7 @@ shaders::FitParams unwarped(shaders::FitParams p)
     return p;
 }
 
-LightMap lay_out_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
+LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
 {
     LightMap out;
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
@@ -180,20 +185,10 @@ LightMap lay_out_map(gpu::PassList& passes, const Frame& frame, const LightMapSe
     if (Fit(settings.fitting.fit) == Fit::sdsm && sun) out.fitted = fit_to_samples(passes, frame, settings, out.constants);
     if (frame.light_map) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
-    return out;
-}
-
-OnGpu chosen_on_gpu(gpu::PassList& passes, const Frame& frame, const LightMap& map, const LightMapSettings& settings)
-{
-    const bool sun = frame.light.kind() == scene::LightKind::directional;
-    if (settings.culling != Culling::receivers || !sun || map.constants.layers[0].warped != 0) return {map.fitted, {}};
-    return {map.fitted, cull_casters(passes, frame, map, settings.guard_texels + settings.offset_texels)};
-}
-
-LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings)
-{
-    const LightMap out = lay_out_map(passes, frame, settings);
-    draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, chosen_on_gpu(passes, frame, out, settings));
+    OnGpu on_gpu{out.fitted, {}};
+    if (settings.culling == Culling::receivers && sun && out.constants.layers[0].warped == 0)
+        on_gpu.commands = cull_casters(passes, frame, out, settings.guard_texels + settings.offset_texels);
+    draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, on_gpu);
     return out;
 }
 
