@@ -118,7 +118,8 @@ void AovCopies::record(gpu::PassList& passes, const shadow::GBuffer& g)
         if (auto found = images_.find(name); found != images_.end() && id) passes.copy(id, passes.import(found->second), "copy aov");
 }
 
-void AovCopies::record_footprint(gpu::PassList& passes, const shadow::GBuffer& g, const scene::View& view, const shaders::LightMap& map)
+void AovCopies::record_footprint(
+    gpu::PassList& passes, const shadow::GBuffer& g, const scene::View& view, const shadow::parts::LightMap& map)
 {
     shadow::parts::draw_texel_footprint(passes, g, view, map, passes.import(images_.at("footprint")));
 }

@@ -4,8 +4,8 @@
 #include "gpu/device.h"
 #include "gpu/pass_list.h"
 #include "lab/stage.h"
-#include "shaders/light_map.shared.h"
 #include "shadow/gbuffer.h"
+#include "shadow/parts/light_map.h"
 
 #include <map>
 #include <set>
@@ -23,7 +23,7 @@ public:
     bool wants(const std::string& name) const { return names_.count(name) != 0; }
     void record(gpu::PassList&, const shadow::GBuffer&);
     bool wants_footprint() const { return images_.count("footprint") != 0; }
-    void record_footprint(gpu::PassList&, const shadow::GBuffer&, const scene::View&, const shaders::LightMap&);
+    void record_footprint(gpu::PassList&, const shadow::GBuffer&, const scene::View&, const shadow::parts::LightMap&);
     std::map<std::string, base::Picture> read(gpu::Device&, const Stage&);
 
 private:

@@ -66,12 +66,12 @@ public:
         for (size_t i = 0; i < stage_.lights.size(); ++i) {
             const gpu::ImageId output = passes.import(targets_.images[i]);
             passes.group(std::string(choice_.info->id));
-            shaders::LightMap map{};
+            parts::LightMap map{};
             techniques_[i]->record(
                 passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame, &map}, choice_.params.bytes());
             passes.group("");
             if (i == 0 && aovs && aovs->wants_footprint()) {
-                if (map.layer_count == 0)
+                if (map.constants.layer_count == 0)
                     base::fail("{} looks its shadows up in no light map whose texels could be shown", choice_.info->id);
                 aovs->record_footprint(passes, g, view, map);
             }

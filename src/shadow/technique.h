@@ -4,7 +4,6 @@
 #include "gpu/device.h"
 #include "gpu/pass_list.h"
 #include "scene/scene.h"
-#include "shaders/light_map.shared.h"
 #include "shadow/gbuffer.h"
 #include "shadow/params.h"
 #include "shadow/scene_gpu.h"
@@ -18,6 +17,10 @@
 
 // The contract of every algorithm: given a drawn G-buffer, the scene, one light and the view, write ONE image.
 namespace gnomon::shadow {
+
+namespace parts {
+struct LightMap;
+}
 
 /// The kind of image that a technique writes; it fixes format, range and truth (docs/conventions.md).
 enum class Output : uint8_t {
@@ -47,7 +50,7 @@ struct Frame {
     gpu::ImageId output; ///< output_format, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
                          ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
-    shaders::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves its layers here
+    parts::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves it here
 };
 
 /// One algorithm for one scene and one light, with what it keeps between frames (a member; a new scene or light is a new object).

@@ -118,7 +118,7 @@ class Method final : public TechniqueWith<Params> {
         parts::LightMapSettings settings = parts::soft_map_settings(params.soft);
         settings.fitting = parts::unwarped(settings.fitting);
         const LightMap map = parts::fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
-        if (frame.light_map) *frame.light_map = map;
+        if (frame.light_map) frame.light_map->constants = map;
         ResolveConstants c{};
         c.soft = parts::soft_constants(frame, map, params.soft);
         c.params = params;

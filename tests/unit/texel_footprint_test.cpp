@@ -8,6 +8,7 @@
 #include "shadow/technique.h"
 #include "tests/light_map_twin.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -187,6 +188,29 @@ TEST(TexelFootprint, OverheadMapsHaveTheErrorsOfTheEquations)
             EXPECT_NEAR(all.s / largest.s, 1.0, 0.02) << "layer " << i;
         }
     }
+}
+
+// Largest errors where the light tilts towards the view, of a map warped as the falloff says.
+TEST(TexelFootprint, TiltedWarpsHaveTheErrorsOfTheEquations)
+{
+    const std::vector<std::string> fits = technique("shadow_map").params().find("fit")->choices;
+    const auto fit = Fit(std::find(fits.begin(), fits.end(), "lispsm") - fits.begin());
+    const scene::View view = along_z();
+    for (const int elevation : {40, 60, 80})
+        for (const int azimuth : {0, 180}) {
+            const std::string text = fmt::format("sun,elevation={},azimuth={}", elevation, azimuth);
+            SCOPED_TRACE(text);
+            const scene::Light light = scene::parse_light(text, {}, box);
+            const vec3 direction = std::get<scene::DirectionalLight>(light.shape).direction;
+            ASSERT_NEAR(direction.x, 0.0f, 1e-6f);
+            const double gamma = std::acos(std::abs(double(direction.z))); // either way round
+            const shaders::LightMap map = fit_light_map({}, box, view, light, settings(fit));
+            const Error expected = tilted_largest(frustum, gamma, tilted_shaped_near(frustum, gamma));
+            const Error all = largest_measured(map, view, frustum.near * 1.0001, frustum.far * 0.9999);
+            const double rim = double(rim_factor(settings(fit)));
+            EXPECT_NEAR(all.t / (expected.t * rim), 1.0, 0.02);
+            EXPECT_NEAR(all.s / (expected.s * rim), 1.0, 0.02);
+        }
 }
 
 // (3.9) with the light's own perspective, d_l / n_l and cos phi_t.

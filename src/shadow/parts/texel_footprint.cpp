@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace gnomon::shadow::parts {
 
@@ -60,13 +61,13 @@ TexelFootprint texel_footprint(const shaders::LightMapLayer& layer, double size,
 
 double longer_edge(const dmat2& m) { return std::max(glm::length(m[0]), glm::length(m[1])); }
 
-void draw_texel_footprint(
-    gpu::PassList& passes, const GBuffer& gbuffer, const scene::View& view, const shaders::LightMap& map, gpu::ImageId out)
+void draw_texel_footprint(gpu::PassList& passes, const GBuffer& gbuffer, const scene::View& view, const LightMap& map, gpu::ImageId out)
 {
+    using Constants = shaders::TexelFootprintConstants;
     passes.fullscreen({.name = "texel footprint",
         .program = &passes.device().raster_program("shaders/fullscreen.vert", "src/shadow/parts/texel_footprint.frag"),
         .bindings = {{gbuffer.depth, gpu::Use::sample}, {gbuffer.normal, gpu::Use::sample}},
-        .constants = shaders::TexelFootprintConstants{view_constants(view, 0), map},
+        .constants = with_map(Constants{view_constants(view, 0), map.constants}, map, offsetof(Constants, map)),
         .colors = {{out}}});
 }
 

@@ -32,6 +32,6 @@ double longer_edge(const glm::dmat2&);
 
 /// For each pixel (rgba32f): the longer edge of `total`, of `perspective`, and `projection`; 0 where the map is not looked at: background,
 /// surfaces turned away from the light, and what lies outside of the map.
-void draw_texel_footprint(gpu::PassList&, const GBuffer&, const scene::View&, const shaders::LightMap&, gpu::ImageId out);
+void draw_texel_footprint(gpu::PassList&, const GBuffer&, const scene::View&, const LightMap&, gpu::ImageId out);
 
 } // namespace gnomon::shadow::parts
