@@ -24,6 +24,17 @@ int select_cube_layer(vec3 centre, mat3 axes, vec3 p_world)
     return d.z >= 0.0 ? 4 : 5;
 }
 
+// A tetrahedron's faces look along (1, 1, 1), (1, -1, -1), (-1, 1, -1) and (-1, -1, 1): the one most along p - centre.
+int select_tetrahedron_layer(vec3 centre, mat3 axes, vec3 p_world)
+{
+    const vec3 d = (p_world - centre) * axes;
+    const vec4 along = vec4(d.x + d.y + d.z, d.x - d.y - d.z, -d.x + d.y - d.z, -d.x - d.y + d.z);
+    const float most = max(max(along.x, along.y), max(along.z, along.w));
+    if (along.x == most) return 0;
+    if (along.y == most) return 1;
+    return along.z == most ? 2 : 3;
+}
+
 // Cascades lie one behind another along the view's axis: the number of those that end before p.
 int select_cascade(vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 {
@@ -35,8 +46,29 @@ int select_cascade(vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 {
     if (layout_kind == LIGHT_MAP_SINGLE) return 0;
+    if (layout_kind == LIGHT_MAP_TETRAHEDRON) return select_tetrahedron_layer(centre, axes, p_world);
     return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : select_cascade(centre, axes, splits, p_world);
 }
+
+// The layers that hold p: `first` alone, or in the band at a cascade's end also the one after it.
+struct Layers {
+    int first;
+    float next; // share of the second; 0: there is none
+};
+
+Layers select_layers(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec4 bands[2], vec3 p_world)
+{
+    Layers layers = Layers(select_layer(layout_kind, centre, axes, splits, p_world), 0.0);
+    if (layout_kind != LIGHT_MAP_CASCADES) return layers;
+    const int i = layers.first >> 2, k = layers.first & 3;
+    const float depth = dot(p_world - centre, axes[2]);
+    if (depth > bands[i][k]) layers.next = min((depth - bands[i][k]) / (splits[i][k] - bands[i][k]), 1.0);
+    return layers;
+}
+
+// For a loop over both, which leaves out the second outside of bands.
+int count_of(Layers layers) { return layers.next > 0.0 ? 2 : 1; }
+float share_of(Layers layers, int i) { return i == 0 ? 1.0 - layers.next : layers.next; }
 
 float stored_from_depth(LightMapLayer layer, float depth)
 {

@@ -6,6 +6,7 @@
 #define LIGHT_MAP_SINGLE 0
 #define LIGHT_MAP_CUBE 1
 #define LIGHT_MAP_CASCADES 2
+#define LIGHT_MAP_TETRAHEDRON 3
 #define LIGHT_MAP_MAX_LAYERS 8
 
 SHARED_BEGIN(shaders)
@@ -19,6 +20,9 @@ struct FitParams {
     int warp DEFAULT(0); ///< parts::Falloff
     float warp_near DEFAULT(0.0f); ///< lispsm: of the depths seen, the nearest part that may do with coarser texels
     float psm_slide DEFAULT(0.02f); ///< of the depths seen: how far behind the eye psm looks from
+    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
+    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
+    int point_layout DEFAULT(0); ///< parts::PointLayout
 };
 
 /// One depth layer. map_from_world takes a world point to (u w, v w, z w, w): uv in [0,1] with v down, z the reversed depth. A light's ray
@@ -40,11 +44,12 @@ struct LightMap {
     uint layer_count;
     float size; ///< texels a side
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
-    vec3 centre; ///< where the layers look from (cube), or the view's eye (cascades)
+    vec3 centre; ///< where the layers look from (cube, tetrahedron), or the view's eye (cascades)
     int fit_used; ///< parts::Fit: what was asked for, or what that gave way to where it does not suit light and view
-    mat3 axes; ///< of the cube, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
+    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
                ///< along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
+    vec4 bands[2]; ///< and where the band before it begins, in which it is blended into the next
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
 };
 

@@ -30,12 +30,13 @@ vec2 light_half_size(LightMapLayer layer, Light light, vec3 p_world)
             size[k] = light_half_width(light, along) * (depth * layer.texel_metres / (layer.texel_uv * h.w));
             continue;
         }
-        // a row of the projection, without the part of perspective that centres it, is an axis of the map
+        // a row of the projection, without the part of perspective that puts the layer's axis into its place, is an axis of the map
         const bool perspective = layer.perspective != 0;
         vec3 row = vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]);
-        if (perspective) row -= 0.5 * axis;
+        const float centring = perspective ? dot(row, axis) : 0.0;
+        row -= centring * axis;
         const float scale = length(row);
-        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - 0.5) / scale : 0.0;
+        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - centring) / scale : 0.0;
         size[k] = light_half_width(light, row / scale - tangent * axis);
     }
     return size;

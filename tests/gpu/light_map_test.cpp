@@ -21,6 +21,10 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     std::vector<shaders::MapCase> cases;
+    const auto add = [&](const shaders::LightMap& map) {
+        for (int i = 0; i < 300; ++i)
+            cases.push_back({map, bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random))});
+    };
     for (const char* text :
         {"sun,elevation=35,azimuth=200", "spot,position=8/9/7,target=0/0/0,cone=30", "point,position=0.5/2/-0.5", "point,position=20/9/7",
             "rect,position=0/6/0,target=0/0/0", "rect,position=1/2/0.5,target=3/0/1", "disk,position=-1/2.5/2,target=2/1/-1"})
@@ -28,19 +32,20 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
                  shadow::parts::Fit::psm, shadow::parts::Fit::lispsm, shadow::parts::Fit::tsm, shadow::parts::Fit::cascades_warped}) {
             const auto format = fit == shadow::parts::Fit::focused ? shadow::parts::DepthFormat::d16 : shadow::parts::DepthFormat::d32;
             const shaders::LightMap map = shadow::parts::fit_light_map(
-                {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}, .format = format});
-            for (int i = 0; i < 300; ++i) {
-                const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
-                cases.push_back({map, p});
-            }
+                {}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit), .blend = 0.5f}, .format = format});
+            add(map);
         }
+    add(shadow::parts::fit_light_map({}, bounds, view, scene::parse_light("point,position=0.5/2/-0.5", {}, bounds),
+        {.fitting = {.point_layout = int(shadow::parts::PointLayout::tetrahedron)}}));
     const auto results = gpu::run_glsl_cases<shaders::MapResult>(device(), "tests/gpu/light_map.comp", cases);
-    size_t inside = 0, warped = 0;
+    size_t inside = 0, in_bands = 0, warped = 0;
     for (size_t i = 0; i < cases.size(); ++i) {
         const shaders::LightMap& map = cases[i].map;
         const shaders::MapResult& r = results[i];
         SCOPED_TRACE(i);
         ASSERT_EQ(r.layer, tests::select_layer(map, cases[i].p_world));
+        ASSERT_NEAR(double(r.next), tests::next_share(map, cases[i].p_world), 1e-4);
+        in_bands += r.next > 0.0f ? 1 : 0;
         const shaders::LightMapLayer& layer = map.layers[r.layer];
         const tests::MapPoint m = tests::project(layer, cases[i].p_world);
         ASSERT_NEAR(double(r.depth), m.depth, 1e-5 * double(layer.far));
@@ -65,6 +70,7 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
     EXPECT_GT(inside, cases.size() / 2);
     EXPECT_GT(warped, 1000u);
     EXPECT_LT(inside, cases.size() - 200);
+    EXPECT_GT(in_bands, 10u);
 }
 
 } // namespace
