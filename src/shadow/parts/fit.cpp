@@ -231,11 +231,11 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 
 namespace {
 
-/// The one layer of `map`, focused, as its fit wants it.
+/// The one layer of `map`, focused, as its fit wants it. A spot has no cascades: of those that are warped it has the warp.
 void warp(shaders::LightMap& map, const scene::View& view, const std::vector<vec3>& receivers, const LightMapSettings& settings)
 {
     const Fit fit = Fit(settings.fitting.fit);
-    if (fit == Fit::uniform || fit == Fit::focused) return;
+    if (fit == Fit::uniform || fit == Fit::focused || fit == Fit::cascades || fit == Fit::sdsm) return;
     const auto layer = warped_layer(map.layers[0], view, receivers, settings);
     if (layer)
         map.layers[0] = *layer;
