@@ -156,14 +156,14 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
         "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
         "waste "
         "texels.");
-    fields.real("cascade_blend", p.blend, {0, 1}, "", "The end of each cascade's length over which it is blended into the next.");
-    fields.real("cascade_near", p.nearest, {0, 1000}, "m", "Cascades of one ratio begin no nearer to the eye: nothing is seen before.");
     fields.choice("warp", p.warp, {"lloyd", "sine"},
         "lispsm, cascades_warped: how the warp fades where the light shines along the view, after Lloyd, or by the sine of their angle.");
     fields.real("warp_near", p.warp_near, {0, 0.5}, "",
         "lispsm, cascades_warped: fraction of the depths seen, the nearest, that may have coarser texels for the sake of the rest.");
     fields.real(
         "psm_slide", p.psm_slide, {0, 1}, "", "psm: how far behind the eye the warp has its own, as a fraction of the depths seen.");
+    fields.real("cascade_blend", p.blend, {0, 1}, "", "The end of each cascade's length over which it is blended into the next.");
+    fields.real("cascade_near", p.nearest, {0, 1000}, "m", "Cascades of one ratio begin no nearer to the eye: nothing is seen before.");
     fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron"},
         "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube, or four wide ones, whose texels are 2.4 times as "
         "wide.");
@@ -183,10 +183,13 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
     const bool sun = frame.light.kind() == scene::LightKind::directional;
     if (Fit(settings.fitting.fit) == Fit::sdsm && sun) out.fitted = fit_to_samples(passes, frame, settings, out.constants);
+    if (frame.light_map && !out.fitted) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
     OnGpu on_gpu{out.fitted, {}};
-    if (settings.culling == Culling::receivers && sun && out.constants.layers[0].warped == 0)
-        on_gpu.commands = cull_casters(passes, frame, out, settings.guard_texels + settings.offset_texels);
+    // the CPU knows but a bound of layers that the GPU fits
+    const bool choose = settings.culling == Culling::receivers || (settings.culling == Culling::frustum && out.fitted);
+    if (choose && sun && out.constants.layers[0].warped == 0)
+        on_gpu.commands = cull_casters(passes, frame, out, settings.culling, settings.guard_texels + settings.offset_texels);
     draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, on_gpu);
     if (frame.light_map) *frame.light_map = out;
     return out;
