@@ -34,7 +34,7 @@ bool find_filter_point(out FilterPoint at)
     Receiver r;
     if (!find_hard_receiver(c.filtering.view, c.filtering.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return false;
     at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, c.filtering.map.axes, c.filtering.map.splits, r.p_world);
-    const LightMapLayer layer = c.filtering.map.layers[at.layer];
+    const LightMapLayer layer = layer_at(c.filtering.map.layers[at.layer], r.p_world);
     const MapPoint m = project(layer, r.p_world);
     at.uv = m.uv;
     at.dx = at.dy = vec2(0.0);

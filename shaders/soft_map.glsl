@@ -40,7 +40,7 @@ bool find_soft_point(out SoftPoint p)
     p.horizon = light_reaches(c.soft.light, p_world) ? light_above_horizon(c.soft.light, p_world, n) : 0.0;
     if (p.horizon <= 0.0) return false;
     p.layer = select_layer(c.soft.map.layout_kind, c.soft.map.centre, c.soft.map.axes, c.soft.map.splits, p_world);
-    const LightMapLayer layer = c.soft.map.layers[p.layer];
+    const LightMapLayer layer = layer_at(c.soft.map.layers[p.layer], p_world);
     const MapPoint m = project(layer, p_world);
     p.at = m.uv * c.soft.map.size;
     p.texel = m.texel;

@@ -70,7 +70,7 @@ void main()
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
-    const LightMapLayer layer = c.map.layers[index];
+    const LightMapLayer layer = layer_at(c.map.layers[index], r.p_world);
     MapPoint m = project(layer, r.p_world);
     visibility = 1.0;
     if (!m.inside) return;

@@ -85,7 +85,7 @@ void main()
 {
     SoftPoint p;
     if (!find_soft_point(p)) return;
-    const LightMapLayer layer = c.soft.map.layers[p.layer];
+    const LightMapLayer layer = layer_at(c.soft.map.layers[p.layer], p.receiver.p_world);
     const MapPoint m = project(layer, p.receiver.p_world);
     if (all(equal(p.light, vec2(0.0)))) {
         const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);

@@ -20,7 +20,7 @@ void main()
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
-    const LightMapLayer layer = c.map.layers[index];
+    const LightMapLayer layer = layer_at(c.map.layers[index], r.p_world);
     // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a
     // texel covers more depth (Holbert 2011, "Saying Goodbye to Shadow Acne").
     const float cos_light = dot(r.n_geometric, to_light(c.light, r.p_world).xyz);

@@ -36,7 +36,8 @@ void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 di
 
 /// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
 /// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
-/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm
+/// with Lloyd's falloff, the storage factor would grow.
 std::optional<shaders::LightMapLayer> warped_layer(
     const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 
@@ -55,6 +56,9 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 /// `depth`'s. With `before`, only what lies behind the depths of that image.
 void draw_light_layers(
     gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth, gpu::ImageId before = {});
+
+/// The same of paraboloids: each triangle as the box around its image, each fragment its own ray against the triangle.
+void draw_paraboloid_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
 
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
