@@ -33,8 +33,8 @@ struct LightMapLayer {
     float near; ///< metres along the axis where stored z = 1
     float far; ///< where stored z = 0
     uint perspective; ///< 0 or 1: stored z is affine in linear depth, or in its inverse
-    uint warped; ///< 1: map_from_world's third row is not the stored depth, which fragments write, and texels differ in width; 2: a paraboloid,
-                 ///< to be read through layer_at (shaders/light_map.glsl)
+    uint warped; ///< 1: map_from_world's third row is not the stored depth, which fragments write, and texels differ in width; 2: a
+                 ///< paraboloid, to be read through layer_at (shaders/light_map.glsl)
     float texel_uv; ///< width of a texel in uv
 };
 
@@ -45,8 +45,8 @@ struct LightMap {
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube, tetrahedron), or the view's eye (cascades)
     int fit_used; ///< parts::Fit: what was asked for, or what that gave way to where it does not suit light and view
-    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
-               ///< along whose third axis cascades are split
+    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along
+               ///< +z; of the view along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];
 };
