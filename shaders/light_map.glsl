@@ -78,6 +78,26 @@ LightMapLayer layer_at(LightMapLayer layer, vec3 p_world)
     return layer;
 }
 
+// The layers that hold p: `first` alone, or in the band at a cascade's end also the one after it.
+struct Layers {
+    int first;
+    float next; // share of the second; 0: there is none
+};
+
+Layers select_layers(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec4 bands[2], vec3 p_world)
+{
+    Layers layers = Layers(select_layer(layout_kind, centre, axes, splits, p_world), 0.0);
+    if (layout_kind != LIGHT_MAP_CASCADES) return layers;
+    const int i = layers.first >> 2, k = layers.first & 3;
+    const float depth = dot(p_world - centre, axes[2]);
+    if (depth > bands[i][k]) layers.next = min((depth - bands[i][k]) / (splits[i][k] - bands[i][k]), 1.0);
+    return layers;
+}
+
+// For a loop over both, which leaves out the second outside of bands.
+int count_of(Layers layers) { return layers.next > 0.0 ? 2 : 1; }
+float share_of(Layers layers, int i) { return i == 0 ? 1.0 - layers.next : layers.next; }
+
 float stored_from_depth(LightMapLayer layer, float depth)
 {
     // perspective: z w = near far / (far - near) - depth near / (far - near), w = depth

@@ -39,6 +39,16 @@ inline int select_layer(const shaders::LightMap& map, vec3 p_world)
     return 2 * axis + (d[axis] >= 0.0f ? 0 : 1);
 }
 
+/// The share of the next cascade.
+inline double next_share(const shaders::LightMap& map, vec3 p_world)
+{
+    if (map.layout_kind != LIGHT_MAP_CASCADES) return 0.0;
+    const int layer = select_layer(map, p_world);
+    const double depth = double(glm::dot(p_world - map.centre, map.axes[2]));
+    const double begin = double(map.bands[layer / 4][layer % 4]), end = double(map.splits[layer / 4][layer % 4]);
+    return depth > begin ? (depth - begin) / (end - begin) : 0.0;
+}
+
 inline double stored_from_depth(const shaders::LightMapLayer& layer, double depth)
 {
     const double near = double(layer.near), far = double(layer.far);

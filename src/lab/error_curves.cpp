@@ -50,7 +50,8 @@ Curves warps()
     const std::tuple<const char*, const char*, double> maps[]
         = {{"uniform, t", "uniform, s", no_warp}, {"n = near, t", "n = near, s", f.near}, {"optimal n, t", "optimal n, s", best_near(f)}};
     for (size_t i = 0; i < std::size(maps); ++i) {
-        const auto& [t, s, n] = maps[i];
+        const auto& [t, s, near] = maps[i];
+        const double n = near;
         add(c, t, i, 0, [&](double z) { return overhead_error(f, n, z).t; });
         add(c, s, i, 1, [&](double z) { return overhead_error(f, n, z).s; });
     }
@@ -99,11 +100,10 @@ Curves splits(bool t)
 {
     Curves c{t ? "splits_t" : "splits_s", t ? "Four maps: error in t" : "Four maps: error in s", "", "depth in the view / near plane",
         "pixels per texel", true, true, geometric(1, 1000, 301), {}};
-    c.text = t
-        ? "As figure 4.16, far/near = 1000: parts at logarithmic splits or at practical ones (half way to even ones), with and "
-          "without the optimal warp. Logarithmic splits with warps meet in t and have the least maximum; practical splits move error "
-          "from far to near."
-        : "The same in s: the width of a texel almost doubles from one warped part to the next.";
+    c.text = t ? "As figure 4.16, far/near = 1000: parts at logarithmic splits or at practical ones (half way to even ones), with and "
+                 "without the optimal warp. Logarithmic splits with warps meet in t and have the least maximum; practical splits "
+                 "have less error far away and much more close by."
+               : "The same in s: the width of a texel almost doubles from one warped part to the next.";
     const std::tuple<const char*, double, Warp> schemes[] = {{"logarithmic, uniform", 1.0, Warp::none},
         {"practical, uniform", 0.5, Warp::none}, {"logarithmic, warped", 1.0, Warp::optimal}, {"practical, warped", 0.5, Warp::optimal}};
     for (size_t i = 0; i < std::size(schemes); ++i) {
@@ -120,8 +120,8 @@ Curves nearest(bool t)
         t ? "From the nearest visible depth on: error in t" : "From the nearest visible depth on: error in s", "",
         "depth in the view / near plane", "pixels per texel", true, true, geometric(1, 1000, 301), {}};
     c.text = t
-        ? "As figures 4.17 and 4.18: where nothing is nearer than 13, four maps that begin there waste none of their texels. A pseudo "
-          "near plane at 13 does nearly as much for a single warped map and keeps what is nearer shadowed, coarsely."
+        ? "As figures 4.17 and 4.18: where nothing is nearer than 13, four maps that begin there waste none of their texels. A single "
+          "warped map with a pseudo near plane at 13 has a third of the error from there on, and still shadows what is nearer, coarsely."
         : "The same in s.";
     const std::tuple<const char*, double, Warp> schemes[] = {{"4 uniform, from 1", 1.0, Warp::none},
         {"4 uniform, from 13", 13.0, Warp::none}, {"4 warped, from 1", 1.0, Warp::optimal}, {"4 warped, from 13", 13.0, Warp::optimal}};

@@ -186,5 +186,6 @@ gpu::Buffer& SceneGpu::materials() { return impl_->materials; }
 gpu::Buffer& SceneGpu::previous_positions() { return impl_->previous ? impl_->previous : impl_->positions; }
 gpu::Buffer& SceneGpu::previous_instances() { return impl_->previous_instances ? impl_->previous_instances : impl_->instances; }
 const gpu::TextureTable& SceneGpu::textures() const { return impl_->textures; }
+std::shared_ptr<const void> SceneGpu::content() const { return impl_->content; }
 
 } // namespace gnomon::shadow

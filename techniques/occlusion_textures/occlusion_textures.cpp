@@ -142,7 +142,7 @@ class Method final : public TechniqueWith<Params> {
         const bool sums = params.prefilter == PREFILTER_SUMS;
         const gpu::SpecConstant spec[] = {{0, uint32_t(params.slices)}, {1, uint32_t(params.fusion)}, {2, uint32_t(params.own)},
             {3, uint32_t(params.middle)}, {4, params.prefilter == PREFILTER_MIPS ? 1u : 0u}};
-        parts::resolve_soft(passes, frame,
+        parts::resolve_soft(passes, frame, {{}, map},
             sums ? "techniques/occlusion_textures/occlusion_textures_sums.frag"
                  : "techniques/occlusion_textures/occlusion_textures_means.frag",
             spec, c, {array_of(slices), array_of(filtered, sums ? gpu::Sampler::nearest_clamp : gpu::Sampler::linear_clamp)});

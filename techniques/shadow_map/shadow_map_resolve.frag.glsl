@@ -15,11 +15,8 @@ layout(constant_id = 0) const int pcf = 3;
 
 layout(location = 0) out float visibility;
 
-void main()
+float lit_in_layer(Receiver r, int index)
 {
-    Receiver r;
-    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
-    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
     const LightMapLayer layer = layer_at(c.map.layers[index], r.p_world);
     // Normal offset: along the normal by the texel's width in the world, more where the surface turns away from the light and a
     // texel covers more depth (Holbert 2011, "Saying Goodbye to Shadow Acne").
@@ -30,5 +27,14 @@ void main()
 
     const MapPoint m = project(layer, p);
     const float z = reference_depth(layer, m.depth - c.params.bias_constant, c.map.depth_step);
-    visibility = box_filter(map_image, index, m.uv * c.map.size, z, pcf, c.params.bilinear != 0);
+    return box_filter(map_image, index, m.uv * c.map.size, z, pcf, c.params.bilinear != 0);
+}
+
+void main()
+{
+    Receiver r;
+    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
+    const Layers layers = select_layers(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, c.map.bands, r.p_world);
+    visibility = 0.0;
+    for (int i = 0; i < count_of(layers); ++i) visibility += share_of(layers, i) * lit_in_layer(r, layers.first + i);
 }

@@ -26,6 +26,7 @@ struct MapCase {
 
 struct MapResult {
     int layer; ///< select_layer
+    float next; ///< select_layers
     vec2 uv; ///< project
     float z, depth;
     uint inside;

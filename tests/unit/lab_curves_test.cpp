@@ -24,7 +24,11 @@ std::vector<std::string> lines_of(const std::string& text)
 std::vector<std::string> cells_of(const std::string& line)
 {
     std::vector<std::string> out(1);
-    for (const char c : line) c == ',' ? out.emplace_back() : out.back().push_back(c), void();
+    for (const char c : line)
+        if (c == ',')
+            out.emplace_back();
+        else
+            out.back() += c;
     return out;
 }
 

@@ -4,13 +4,15 @@
 #include "scene/light.h"
 #include "shadow/parts/fit.h"
 #include "shadow/parts/sampling_error.h"
+#include "shadow/parts/warp_parameter.h"
+#include "shadow/technique.h"
 #include "tests/light_map_twin.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <map>
 #include <random>
 
 namespace gnomon::shadow::parts {
@@ -122,46 +124,87 @@ TEST(TexelFootprint, PerspectiveIsTheErrorOfTheSurfaceHalfway)
     }
 }
 
-/// An overhead light's fits and what the equations say of them. A fit that is not listed fails the test.
+/// What a fit is to be for an overhead light: parts one behind another, square or as wide and long as they are, and warped with n.
 struct Expectation {
-    std::function<Error(const shaders::LightMap&, double z)> at; ///< on the view's axis
+    bool cascades = false, square = false, box = false; ///< box: it holds all of it
+    double (*near)(const Frustum&) = nullptr; ///< of the warp
 };
 
-/// A square map without a warp: `extent` metres a side.
-Error uniform_error(double extent, double z)
+double optimal(const Frustum& f) { return optimal_near(f.near, f.far, f.depth()); }
+
+/// Fits by name; where one is added this table wants its line.
+const std::map<std::string, Expectation> expectations = {
+    {"uniform", {.square = true, .box = true}},
+    {"focused", {.square = true}},
+    {"cascades", {.cascades = true, .square = true}},
+    {"lispsm", {.near = optimal}},
+    {"cascades_warped", {.cascades = true, .near = optimal}},
+    // its default focus is the geometric mean of the depths, and has 0.8 of the map
+    {"tsm", {.near = [](const Frustum& f) { return trapezoid_near(std::sqrt(f.near * f.far) - f.near, f.depth(), 0.8); }}},
+    // its default looks from a fiftieth of the depth behind the eye
+    {"psm", {.near = [](const Frustum& f) { return f.near + 0.02 * f.far; }}},
+};
+
+/// The error on the view's axis in a part of the frustum. Square maps: the part's (or box's) longer side both ways.
+Error expected_error(const Expectation& e, const Frustum& part, double z)
 {
-    const double height = 2.0 * std::tan(frustum.half_fov) * z;
-    return {extent / height, extent / (height * frustum.aspect)};
+    Error out = overhead_error(part, e.near ? e.near(part) : no_warp, z);
+    if (!e.square) return out;
+    const double height = 2.0 * std::tan(part.half_fov), width = height * part.far * part.aspect;
+    const double extent = e.box ? double(box.max.x - box.min.x) : std::max(width, part.depth());
+    return {extent / (height * z), extent / (height * part.aspect * z)};
 }
 
-double extent_of(const shaders::LightMapLayer& layer) { return double(layer.texel_metres) * map_size; }
-
+// Maxima of the matrices that maps are drawn with, against the equations: (4.19) to (4.22), for each fit there is.
 TEST(TexelFootprint, OverheadMapsHaveTheErrorsOfTheEquations)
 {
     const scene::View view = along_z();
     const scene::Light light = scene::parse_light("sun,elevation=90", {}, box);
-    const double above = 1.0 / std::cos(frustum.half_fov), width = 2.0 * std::tan(frustum.half_fov) * frustum.far * frustum.aspect;
-    for (const Fit fit : {Fit::uniform, Fit::focused, Fit::cascades}) {
-        SCOPED_TRACE(int(fit));
-        const shaders::LightMap map = fit_light_map({}, box, view, light, settings(fit));
-        // what the fit is to cover: the box, the frustum, or its parts at logarithmic splits
+    const double off_axis = 1.0 / std::cos(frustum.half_fov);
+    const std::vector<std::string> fits = technique("shadow_map").params().find("fit")->choices;
+    for (size_t fit = 0; fit < fits.size(); ++fit) {
+        if (fits[fit] == "sdsm") continue; // placed on the device, from what is drawn
+        SCOPED_TRACE(fits[fit]);
+        ASSERT_TRUE(expectations.count(fits[fit])) << "this table wants a line for each fit";
+        const Expectation& expectation = expectations.at(fits[fit]);
+        const shaders::LightMap map = fit_light_map({}, box, view, light, settings(Fit(fit)));
+        ASSERT_EQ(map.layer_count, expectation.cascades ? 4u : 1u);
         for (uint32_t i = 0; i < map.layer_count; ++i) {
-            const double part = 1.0 / map.layer_count, from = std::pow(frustum.ratio(), part * i),
-                         to = std::pow(frustum.ratio(), part * (i + 1));
-            const double extent = fit == Fit::uniform ? 800.0 : std::max(width * to / frustum.far, to - from);
-            EXPECT_NEAR(extent_of(map.layers[i]) / (extent * rim_factor(settings(fit))), 1.0, 2e-3);
-            // a square map as wide as it must be: (4.19) and (4.22) for n to infinity, by the map's shape
-            const Error end = largest_measured(map, view, from * 1.0001, to), expected = uniform_error(extent, from);
-            EXPECT_NEAR(end.t / (expected.t * above), 1.0, 0.02);
-            EXPECT_NEAR(end.s / expected.s, 1.0, 0.02);
-        }
-        for (const double z : {1.1, 4.0, 20.0, 90.0}) {
-            const shaders::LightMapLayer& layer = map.layers[tests::select_layer(map, vec3(0, 0, float(z)))];
-            const Error e = measured(layer, view, z, 0.0), expected = uniform_error(extent_of(layer), z);
-            EXPECT_NEAR(e.t / expected.t, 1.0, 1e-3) << z;
-            EXPECT_NEAR(e.s / expected.s, 1.0, 1e-3) << z;
+            Frustum part = frustum;
+            part.near = std::pow(frustum.ratio(), double(i) / map.layer_count);
+            part.far = std::pow(frustum.ratio(), (i + 1.0) / map.layer_count);
+            const double rim = double(rim_factor(settings(Fit(fit))));
+            Error largest{0, 0};
+            for (int k = 0; k <= 200; ++k) {
+                const double z = part.near * std::pow(part.ratio(), 1e-6 + k * (1.0 - 2e-6) / 200.0);
+                const Error e = expected_error(expectation, part, z), on_axis = measured(map.layers[i], view, z, 0.0);
+                largest = {std::max(largest.t, e.t * rim * off_axis), std::max(largest.s, e.s * rim)};
+                EXPECT_NEAR(on_axis.t / (e.t * rim), 1.0, 0.01) << "layer " << i << ", depth " << z;
+                EXPECT_NEAR(on_axis.s / (e.s * rim), 1.0, 0.01) << "layer " << i << ", depth " << z;
+            }
+            const Error all = largest_measured(map, view, part.near * 1.0001, part.far * 0.9999);
+            EXPECT_NEAR(all.t / largest.t, 1.0, 0.02) << "layer " << i;
+            EXPECT_NEAR(all.s / largest.s, 1.0, 0.02) << "layer " << i;
         }
     }
+}
+
+// (3.9) with the light's own perspective, d_l / n_l and cos phi_t.
+TEST(TexelFootprint, SpotsHaveTheErrorsOfTheEquations)
+{
+    const scene::View view = along_z();
+    const scene::Light light = scene::parse_light("spot,position=0/80/50,target=0/0/50,cone=80", {}, box);
+    const shaders::LightMapLayer layer = fit_light_map({}, box, view, light, settings(Fit::focused)).layers[0];
+    const double at_one_metre = double(layer.texel_metres) * map_size;
+    for (const double z : {20.0, 40.0, 50.0, 70.0})
+        for (const double up : {-0.5, 0.0, 0.4}) {
+            const double y = up * z * std::tan(frustum.half_fov), depth = 80.0 - y;
+            const double cos_light = depth / std::hypot(depth, z - 50.0), cos_eye = z / std::hypot(z, y);
+            const double height = 2.0 * std::tan(frustum.half_fov) * z;
+            const Error e = measured(layer, view, z, up);
+            EXPECT_NEAR(e.t / (at_one_metre * depth * cos_light / (cos_eye * height)), 1.0, 1e-3) << z << " " << up;
+            EXPECT_NEAR(e.s / (at_one_metre * depth / (height * frustum.aspect)), 1.0, 1e-3) << z << " " << up;
+        }
 }
 
 } // namespace

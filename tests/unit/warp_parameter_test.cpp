@@ -24,7 +24,8 @@ double error_along(double z, double n, double z0, double z1, double extent)
 
 TEST(WarpParameter, optimum_has_equal_errors_at_both_ends_and_the_least_maximum)
 {
-    for (const auto& [z0, z1, extent] : {std::array{1.0, 100.0, 99.0}, std::array{0.3, 7.0, 20.0}, std::array{2.0, 2.5, 0.1}}) {
+    for (const auto& line : {std::array{1.0, 100.0, 99.0}, std::array{0.3, 7.0, 20.0}, std::array{2.0, 2.5, 0.1}}) {
+        const double z0 = line[0], z1 = line[1], extent = line[2];
         const double n = optimal_near(z0, z1, extent);
         EXPECT_NEAR(error_along(z0, n, z0, z1, extent) / error_along(z1, n, z0, z1, extent), 1.0, 1e-12);
         const auto largest = [&](double at) {

@@ -270,7 +270,7 @@ void warp(shaders::LightMap& map, const scene::View& view, const std::vector<vec
 void fit_sun(shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
 {
     const Fit fit = Fit(settings.fitting.fit);
-    if (fit == Fit::cascades || fit == Fit::cascades_warped) {
+    if (fit == Fit::cascades || fit == Fit::cascades_warped || fit == Fit::sdsm) {
         fit_cascades(map, bounds, view, direction, settings);
         return;
     }

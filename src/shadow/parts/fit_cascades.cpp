@@ -60,13 +60,15 @@ bool warp_cascades(
 
 } // namespace
 
-std::vector<float> cascade_ends(float near, float far, int count, float split)
+std::vector<float> cascade_ends(float near, float far, int count, float split, float nearest)
 {
     std::vector<float> ends;
+    nearest = std::clamp(nearest, near, far);
     for (int i = 1; i <= count; ++i) {
         const float part = float(i) / float(count);
         const float even = near + part * (far - near);
-        ends.push_back(split > 0.0f ? glm::mix(even, near * std::pow(far / near, part), split) : even); // `near` may be 0 where it is even
+        ends.push_back(
+            split > 0.0f ? glm::mix(even, nearest * std::pow(far / nearest, part), split) : even); // `near` may be 0 where it is even
     }
     return ends;
 }
@@ -91,15 +93,18 @@ void fit_cascades(shaders::LightMap& map, const Bounds& bounds, const scene::Vie
     range.y = std::max(range.y, range.x + 1e-4f * std::max(bounds.radius(), 1e-3f));
 
     const int count = std::clamp(settings.fitting.cascades, 1, LIGHT_MAP_MAX_LAYERS);
-    const std::vector<float> ends = cascade_ends(range.x, range.y, count, split);
+    const std::vector<float> ends = cascade_ends(range.x, range.y, count, split, settings.fitting.nearest);
     map.layout_kind = LIGHT_MAP_CASCADES, map.layer_count = uint32_t(count), map.centre = view.eye;
     map.axes = mat3(0);
     map.axes[2] = forward;
-    for (int i = 0; i < LIGHT_MAP_MAX_LAYERS; ++i)
-        map.splits[i / 4][i % 4] = i < count - 1 ? ends[size_t(i)] : std::numeric_limits<float>::max();
+    for (int i = 0; i < LIGHT_MAP_MAX_LAYERS; ++i) {
+        float begin = std::numeric_limits<float>::max(), end = begin;
+        if (i < count - 1) end = ends[size_t(i)], begin = glm::mix(end, i == 0 ? range.x : ends[size_t(i - 1)], settings.fitting.blend);
+        map.splits[i / 4][i % 4] = end, map.bands[i / 4][i % 4] = begin;
+    }
     std::vector<std::vector<vec3>> slices; // what each layer's receivers lie within
     for (int i = 0; i < count; ++i) {
-        const vec2 slice(i == 0 ? range.x : ends[size_t(i - 1)], ends[size_t(i)]);
+        const vec2 slice(i == 0 ? range.x : map.bands[(i - 1) / 4][(i - 1) % 4], ends[size_t(i)]);
         if (stable) {
             map.layers[i] = stable_layer(view, direction, bounds, slice, settings);
             continue;

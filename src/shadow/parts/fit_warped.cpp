@@ -70,20 +70,20 @@ Rectangle rectangle_of(const Rows& rows, const std::vector<vec3>& points)
     return r;
 }
 
-/// The same map with w > 0 at all points and axes as `focused` has them; false where there is none.
+/// The same map with w >= 1 at all points and axes as `focused` has them; false where there is none.
 bool make_valid(Rows& rows, const shaders::LightMapLayer& focused, const std::vector<vec3>& points)
 {
     const Rows plain = rows_of(focused);
-    double least = 1e300, most = -1e300;
+    double least = 1e300, most = 0.0, least_w = 1e300;
+    if (at(rows, points.front()).z < 0.0)
+        for (dvec4& r : rows) r = -r;
     for (const vec3 p : points) {
-        const double w = at(rows, p).z / at(plain, p).z; // by how much more than without the warp texels grow
-        if (!std::isfinite(w)) return false;
-        least = std::min(least, w), most = std::max(most, w);
+        const double w = at(rows, p).z, growth = w / at(plain, p).z; // of texels, beyond what they grow without the warp
+        if (!std::isfinite(w) || !(growth > 0.0)) return false;
+        least = std::min(least, growth), most = std::max(most, growth), least_w = std::min(least_w, w);
     }
-    const double sign = most < 0.0 ? -1.0 : 1.0;
-    if (most < 0.0) std::swap(least, most), least = -least, most = -most;
-    if (!(least > 0.0) || most > greatest_ratio * least) return false;
-    for (dvec4& r : rows) r *= sign / most;
+    if (most > greatest_ratio * least) return false;
+    for (dvec4& r : rows) r /= least_w;
     const dvec3 axis(focused.depth_plane);
     const double before = orientation(plain, points.front(), axis), after = orientation(rows, points.front(), axis);
     if (!(before * after != 0.0)) return false;
@@ -141,8 +141,9 @@ bool turn(Rows& rows, const shaders::LightMapLayer& focused, const scene::View& 
     if (from.z < least_w) from += step * ((least_w - from.z) / step.z);
     if (to.z < least_w) to = from + step * ((least_w - from.z) / step.z);
     const dvec2 eye = dvec2(from) / from.z, along = dvec2(to) / to.z - eye;
-    // parallel projections of length sin(angle) are there down to rounding
     if (!(glm::length(along) > 1e-6)) return false;
+    // within a degree of a parallel light the image's direction is chance, and the warp for nothing
+    if (focused.perspective == 0 && glm::length(glm::cross(dvec3(focused.depth_plane), dvec3(forward_of(view)))) < 0.02) return false;
     const dvec2 t = glm::normalize(along), s(t.y, -t.x);
     const double s0 = glm::dot(s, eye), t0 = glm::dot(t, eye);
     rows = {s.x * plain[0] + s.y * plain[1] - s0 * plain[2], t.x * plain[0] + t.y * plain[1] - t0 * plain[2], plain[2]};

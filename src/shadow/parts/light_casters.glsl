@@ -14,7 +14,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { CASTER_CONSTANTS c; };
 
 layout(location = 2) flat out int layer;
 #ifdef CASTERS_WARPED
-layout(location = 3) out float depth; // metres along the layer's axis
+layout(location = 3) out float before_far; // metres along the layer's axis, from the far plane towards the light
 #endif
 
 #ifdef CASTERS_MASKED
@@ -31,9 +31,10 @@ void main()
     const vec4 p_world = vec4(transform_point(instances[slot], position), 1.0);
     gl_Position = c.clip_from_world[gl_Layer] * p_world;
 #ifdef CASTERS_WARPED
-    depth = dot(c.depth_planes[gl_Layer], p_world);
-    gl_Position.z = 0.5 * gl_Position.w; // nothing is clipped in depth, but what lies behind a light
     const vec4 range = c.ranges[gl_Layer];
+    const float depth = dot(c.depth_planes[gl_Layer], p_world);
+    before_far = range.y - depth;
+    gl_Position.z = 0.5 * gl_Position.w; // nothing is clipped in depth, but what lies behind a light
     gl_ClipDistance[0] = range.z != 0.0 ? depth - range.x : 1.0;
 #endif
 #ifdef CASTERS_MASKED

@@ -11,15 +11,19 @@
 layout(location = 2) flat in int layer;
 
 #ifdef DEPTH_WARPED
-layout(location = 3) in float depth;
+layout(location = 3) in float before_far;
 layout(set = 1, binding = 0, scalar) uniform Constants { LightDepthConstants c; };
 
 // stored_from_depth (shaders/light_map.glsl), with what polygon offset does to interpolated depth.
 float stored_depth()
 {
     const vec4 range = c.ranges[layer];
-    const float z = range.z != 0.0 ? range.x / (range.y - range.x) * (range.y / max(depth, 1e-20) - 1.0) : (range.y - depth) / (range.y - range.x);
-    return clamp(z - range.w * max(abs(dFdx(z)), abs(dFdy(z))), 0.0, 1.0);
+    const float scale = range.z != 0.0 ? range.x / max(range.y - before_far, 1e-20) : 1.0;
+    const float z = before_far * scale / (range.y - range.x);
+    // Rasterisers interpolate x / w and 1 / w to a part of their largest value in the map, where w is 1 (LightMapLayer): divided by the 1 / w
+    // found here, the error grows with w. In stored depth, a part of the range of metres; of perspective layers, times dz / dmetres.
+    const float rounding = 1e-6 / gl_FragCoord.w * (range.z != 0.0 ? scale * scale * range.y / range.x : 1.0);
+    return clamp(z - range.w * max(abs(dFdx(z)), abs(dFdy(z))) - rounding, 0.0, 1.0);
 }
 #else
 float stored_depth() { return gl_FragCoord.z; }
