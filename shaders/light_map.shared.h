@@ -7,6 +7,7 @@
 #define LIGHT_MAP_CUBE 1
 #define LIGHT_MAP_CASCADES 2
 #define LIGHT_MAP_TETRAHEDRON 3
+#define LIGHT_MAP_DUAL_PARABOLOID 4
 #define LIGHT_MAP_MAX_LAYERS 8
 
 SHARED_BEGIN(shaders)
@@ -34,8 +35,8 @@ struct LightMapLayer {
     float near; ///< metres along the axis where stored z = 1
     float far; ///< where stored z = 0
     uint perspective; ///< 0 or 1: stored z is affine in linear depth, or in its inverse
-    uint warped; ///< 0 or 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
-                 ///< where it is least of all that is seen
+    uint warped; ///< 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
+                 ///< where it is least of all that is seen; 2: a paraboloid, to be read through layer_at (shaders/light_map.glsl)
     float texel_uv; ///< width of a texel in uv
 };
 

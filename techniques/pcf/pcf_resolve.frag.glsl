@@ -59,7 +59,7 @@ float disk_filter(int layer_index, ReceiverPlane plane, float radius)
 
 float lit_in_layer(Receiver r, int index)
 {
-    const LightMapLayer layer = c.map.layers[index];
+    const LightMapLayer layer = layer_at(c.map.layers[index], r.p_world);
     int n = small_kernel > 0 ? small_kernel : c.kernel;
     if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, project(layer, r.p_world).uv * c.map.size))), n, c.largest);
     bool inside;

@@ -37,8 +37,8 @@ uint instance_of(uint primitive)
 float lit_in_layer(Receiver r, int index)
 {
     bool inside;
-    const ReceiverPlane plane = biased_plane(
-        bias, c.params.bias, c.map.layers[index], c.map.size, c.map.depth_step, c.light, r.p_world, r.n_geometric, c.reach, inside);
+    const ReceiverPlane plane = biased_plane(bias, c.params.bias, layer_at(c.map.layers[index], r.p_world), c.map.size, c.map.depth_step,
+        c.light, r.p_world, r.n_geometric, c.reach, inside);
     if (!inside) return 1.0;
     if (bias == BIAS_IDS) {
         const uint own = instance_of(texelFetch(primitive_image, ivec2(gl_FragCoord.xy), 0).r);

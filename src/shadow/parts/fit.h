@@ -64,6 +64,9 @@ struct OnGpu {
 void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
     gpu::ImageId before = {}, OnGpu = {});
 
+/// The same of paraboloids: each triangle as the box around its image, each fragment its own ray against the triangle.
+void draw_paraboloid_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
+
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
 /// of `pass`, and the constants begin with clip_from_world for each layer. `commands`: as OnGpu.

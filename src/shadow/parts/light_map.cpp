@@ -126,6 +126,7 @@ void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::Ligh
 void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
     gpu::ImageId depth, gpu::ImageId before, OnGpu on_gpu)
 {
+    if (map.layers[0].warped == 2) return draw_paraboloid_layers(passes, frame, map, settings, depth);
     gpu::Device& device = passes.device();
     gpu::RasterPass pass;
     pass.name = "light map";
@@ -156,17 +157,17 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
         "Cascades of a size that does not change when the view moves or turns, moved by whole texels: shadows' edges do not swim. They "
         "waste "
         "texels.");
+    fields.real("cascade_blend", p.blend, {0, 1}, "", "The end of each cascade's length over which it is blended into the next.");
+    fields.real("cascade_near", p.nearest, {0, 1000}, "m", "Cascades of one ratio begin no nearer to the eye: nothing is seen before.");
     fields.choice("warp", p.warp, {"lloyd", "sine"},
         "lispsm, cascades_warped: how the warp fades where the light shines along the view, after Lloyd, or by the sine of their angle.");
     fields.real("warp_near", p.warp_near, {0, 0.5}, "",
         "lispsm, cascades_warped: fraction of the depths seen, the nearest, that may have coarser texels for the sake of the rest.");
     fields.real(
         "psm_slide", p.psm_slide, {0, 1}, "", "psm: how far behind the eye the warp has its own, as a fraction of the depths seen.");
-    fields.real("cascade_blend", p.blend, {0, 1}, "", "The end of each cascade's length over which it is blended into the next.");
-    fields.real("cascade_near", p.nearest, {0, 1000}, "m", "Cascades of one ratio begin no nearer to the eye: nothing is seen before.");
-    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron"},
-        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube, or four wide ones, whose texels are 2.4 times as "
-        "wide.");
+    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron", "dual_paraboloid"},
+        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube; four wide ones, whose texels are 2.4 times as "
+        "wide; or two paraboloids, whose texels are twice as wide, and in which each triangle is drawn as a box.");
 }
 
 shaders::FitParams unwarped(shaders::FitParams p)
@@ -174,6 +175,7 @@ shaders::FitParams unwarped(shaders::FitParams p)
     const Fit fit = Fit(p.fit);
     if (fit == Fit::psm || fit == Fit::lispsm || fit == Fit::tsm) p.fit = int(Fit::focused);
     if (fit == Fit::cascades_warped) p.fit = int(Fit::cascades);
+    if (PointLayout(p.point_layout) == PointLayout::dual_paraboloid) p.point_layout = int(PointLayout::cube);
     return p;
 }
 
