@@ -19,6 +19,15 @@ layout(set = 2, binding = 0) uniform sampler2D textures[];
 // which spreads one over many invocations. Where there is no room left for those they are tested here all the same.
 const int narrow = 16;
 
+void test_cells(Caster t, float z, uint base, uint side, ivec2 from, ivec2 to)
+{
+    for (int y = from.y; y <= to.y; ++y)
+        for (int x = from.x; x <= to.x; ++x) {
+            const uint cell = base + uint(y) * side + uint(x);
+            if (is_open(cell, z)) test_cell(t, cell);
+        }
+}
+
 void main()
 {
     const uint block_index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, layer_index = gl_WorkGroupID.z;
@@ -59,12 +68,6 @@ void main()
                 continue;
             }
         }
-        const uint base = layer_index * c.grid.cells + level.first;
-        for (int y = from.y; y <= to.y; ++y)
-            for (int x = from.x; x <= to.x; ++x) {
-                const uint cell = base + uint(y) * level.side + uint(x);
-                const uint code = cells[cell].furthest;
-                if (code != 0 && s.z >= reach_z(code)) test_cell(t, cell);
-            }
+        test_cells(t, s.z, layer_index * c.grid.cells + level.first, level.side, from, to);
     }
 }

@@ -23,5 +23,6 @@ void main()
     const uint primitive = instances[ids.y].first_primitive + ids.z;
     const Caster t = Caster(edge_normal[0], edge_normal[1], edge_normal[2], edge_point[0], edge_point[1], edge_point[2], plane_normal, primitive,
         ids.y, ids.z, ids.w != 0);
-    test_cell(t, (ids.x & 7u) * c.grid.cells + level.first + uint(xy.y) * level.side + uint(xy.x));
+    const uint cell = (ids.x & 7u) * c.grid.cells + level.first + uint(xy.y) * level.side + uint(xy.x);
+    if (cells[cell].left != 0) test_cell(t, cell);
 }
