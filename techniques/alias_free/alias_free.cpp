@@ -8,6 +8,9 @@
 #include "shadow/parts/fit.h"
 #include "shadow/technique.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gnomon::techniques::alias_free {
 
 namespace {
