@@ -18,6 +18,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 layout(constant_id = 0) const int pcf = 3;
 layout(constant_id = 1) const bool bilinear = true;
 layout(constant_id = 2) const int show = 0;
+layout(constant_id = 3) const bool coned = true;
 
 layout(location = 0) out float visibility;
 
@@ -46,9 +47,10 @@ void main()
     layer.texel_metres /= float(1 << level);
     m.depth -= c.params.bias_constant;
     const float radius = 0.5 * float(pcf) + 1.0;
-    ReceiverPlane plane = receiver_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
+    ReceiverPlane plane = coned ? cone_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit)
+                                : receiver_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
     // far from the axes' origin, coordinates round to more of a fine texel than the rasteriser's snapping does
-    plane.z += (abs(plane.slope.x) + abs(plane.slope.y)) * size * max(abs(m.uv.x), abs(m.uv.y)) * 1.2e-7;
+    plane.z += (abs(plane.slope.x) + abs(plane.slope.y) + plane.cone) * size * max(abs(m.uv.x), abs(m.uv.y)) * 1.2e-7;
     plane.at -= first_texel(page, level) - float(c.grid.border);
-    visibility = separable_filter(pool_image, slot, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, false, false);
+    visibility = separable_filter(pool_image, slot, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, coned, false);
 }
