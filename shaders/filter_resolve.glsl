@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a receiver stands in a prefiltered map, and the mean of the window around it: what the resolve shader of a prefiltered map begins
-// with. Include the technique's shared header first: its ResolveConstants holds a FilterResolve named `filtering`.
+// Where a receiver stands in a prefiltered map, and the mean of the window around it: all of the resolve shader of a prefiltered map but
+// the function declared below. Include the technique's shared header first: its ResolveConstants begins with a FilterResolve named
+// `filtering`.
 #ifndef GNOMON_FILTER_RESOLVE_GLSL
 #define GNOMON_FILTER_RESOLVE_GLSL
 #include "shaders/anisotropic.glsl"
@@ -28,12 +29,13 @@ struct FilterPoint {
     vec2 slope; // change of t along the receiver's plane, by one texel to the right and one down
 };
 
-// False where the map has no say: `visibility` is then written.
-bool find_filter_point(out FilterPoint at)
+// The technique's.
+float filtered_visibility(FilterPoint at);
+
+FilterPoint filter_point(Receiver r, int index)
 {
-    Receiver r;
-    if (!find_hard_receiver(c.filtering.view, c.filtering.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return false;
-    at.layer = select_layer(c.filtering.map.layout_kind, c.filtering.map.centre, c.filtering.map.axes, c.filtering.map.splits, r.p_world);
+    FilterPoint at;
+    at.layer = index;
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const MapPoint m = project(layer, r.p_world);
     at.uv = m.uv;
@@ -46,13 +48,23 @@ bool find_filter_point(out FilterPoint at)
     const float per_metre = 2.0 / (layer.far - layer.near);
     at.slope = receiver_slope(layer, r.p_world, r.n_geometric) * (-per_metre / (stored_per_metre(layer, m.depth) * c.filtering.map.size));
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
-    const float texel = metres_per_texel(layer, m.depth) * per_metre;
-    at.slope *= min(1.0, 50.0 * texel / max(length(at.slope), 1e-20));
+    at.slope *= min(1.0, 50.0 * per_metre / max(length(at.slope / m.texel), 1e-20));
     // as reference_depth: what rounding may take
     const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
     // and what means of up to 127 x 127 depths may be off by rounding, or a floor would stand behind its own mean
     at.t = centred_from_depth(layer, m.depth - rounding) - 1e-5 - c.filtering.params.bias * float(c.filtering.params.kernel) * (abs(at.slope.x) + abs(at.slope.y));
-    return true;
+    return at;
+}
+
+void main()
+{
+    Receiver r;
+    if (!find_hard_receiver(c.filtering.view, c.filtering.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
+    const Layers layers = select_layers(
+        c.filtering.map.layout_kind, c.filtering.map.centre, c.filtering.map.axes, c.filtering.map.splits, c.filtering.map.bands, r.p_world);
+    visibility = 0.0;
+    for (int i = 0; i < count_of(layers); ++i)
+        visibility += share_of(layers, i) * filtered_visibility(filter_point(r, layers.first + i));
 }
 
 // The mean of the values of one group over the receiver's window. Between texels the windows' means are blended, which makes the window

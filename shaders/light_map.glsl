@@ -12,6 +12,7 @@ struct MapPoint {
     float z; // reversed stored depth
     float depth; // linear, metres along the layer's axis
     bool inside; // in front of the layer's eye and within its rim
+    vec2 texel; // metres, across the layer's axis, that a step of one texel in u and in v takes here
 };
 
 // Cube faces in the order +x -x +y -y +z -z of the cube's axes: the major one of p - centre.
@@ -21,6 +22,17 @@ int select_cube_layer(vec3 centre, mat3 axes, vec3 p_world)
     if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0 ? 0 : 1;
     if (a.y >= a.z) return d.y >= 0.0 ? 2 : 3;
     return d.z >= 0.0 ? 4 : 5;
+}
+
+// A tetrahedron's faces look along (1, 1, 1), (1, -1, -1), (-1, 1, -1) and (-1, -1, 1): the one most along p - centre.
+int select_tetrahedron_layer(vec3 centre, mat3 axes, vec3 p_world)
+{
+    const vec3 d = (p_world - centre) * axes;
+    const vec4 along = vec4(d.x + d.y + d.z, d.x - d.y - d.z, -d.x + d.y - d.z, -d.x - d.y + d.z);
+    const float most = max(max(along.x, along.y), max(along.z, along.w));
+    if (along.x == most) return 0;
+    if (along.y == most) return 1;
+    return along.z == most ? 2 : 3;
 }
 
 // Cascades lie one behind another along the view's axis: the number of those that end before p.
@@ -34,8 +46,29 @@ int select_cascade(vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 {
     if (layout_kind == LIGHT_MAP_SINGLE) return 0;
+    if (layout_kind == LIGHT_MAP_TETRAHEDRON) return select_tetrahedron_layer(centre, axes, p_world);
     return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : select_cascade(centre, axes, splits, p_world);
 }
+
+// The layers that hold p: `first` alone, or in the band at a cascade's end also the one after it.
+struct Layers {
+    int first;
+    float next; // share of the second; 0: there is none
+};
+
+Layers select_layers(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec4 bands[2], vec3 p_world)
+{
+    Layers layers = Layers(select_layer(layout_kind, centre, axes, splits, p_world), 0.0);
+    if (layout_kind != LIGHT_MAP_CASCADES) return layers;
+    const int i = layers.first >> 2, k = layers.first & 3;
+    const float depth = dot(p_world - centre, axes[2]);
+    if (depth > bands[i][k]) layers.next = min((depth - bands[i][k]) / (splits[i][k] - bands[i][k]), 1.0);
+    return layers;
+}
+
+// For a loop over both, which leaves out the second outside of bands.
+int count_of(Layers layers) { return layers.next > 0.0 ? 2 : 1; }
+float share_of(Layers layers, int i) { return i == 0 ? 1.0 - layers.next : layers.next; }
 
 float stored_from_depth(LightMapLayer layer, float depth)
 {
@@ -60,21 +93,28 @@ float depth_from_stored(LightMapLayer layer, float z)
     return layer.far - z * (layer.far - layer.near);
 }
 
-float metres_per_texel(LightMapLayer layer, float depth)
-{
-    return layer.texel_metres * (layer.perspective != 0 ? depth : 1.0);
-}
-
 // Linear depth on [-1, 1]: near to far plane.
 float centred_from_depth(LightMapLayer layer, float depth) { return 2.0 * (depth - layer.near) / (layer.far - layer.near) - 1.0; }
+
+// The gradient of u (k = 0) or v in world space, times w. Across the light's ray, along which neither changes.
+vec3 gradient_of_uv(LightMapLayer layer, int k, vec2 uv)
+{
+    const mat4 m = layer.map_from_world;
+    return vec3(m[0][k], m[1][k], m[2][k]) - uv[k] * vec3(m[0][3], m[1][3], m[2][3]);
+}
+
+vec3 across(LightMapLayer layer, vec3 v) { return v - dot(v, layer.depth_plane.xyz) * layer.depth_plane.xyz; }
 
 MapPoint project(LightMapLayer layer, vec3 p_world)
 {
     MapPoint m;
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
     m.uv = h.xy / h.w;
-    m.z = h.z / h.w;
     m.depth = dot(layer.depth_plane, vec4(p_world, 1.0));
+    m.z = layer.warped != 0 ? stored_from_depth(layer, m.depth) : h.z / h.w;
+    if (layer.warped != 0)
+        for (int k = 0; k < 2; ++k) m.texel[k] = layer.texel_uv * h.w / max(length(across(layer, gradient_of_uv(layer, k, m.uv))), 1e-20);
+    else m.texel = vec2(layer.texel_metres * (layer.perspective != 0 ? m.depth : 1.0));
     m.inside = h.w > 0.0 && all(greaterThanEqual(m.uv, vec2(0.0))) && all(lessThanEqual(m.uv, vec2(1.0)));
     return m;
 }

@@ -6,16 +6,6 @@
 
 bool occluded(vec3 origin, vec3 direction, float from, float to);
 
-// The receiver's position comes from a depth image through an inverse matrix, so it lies off its triangle by a few units in the
-// last place of the eye's distance and of its own coordinates. Moving off the plane by more than that keeps the segment open
-// at the receiver's end: neither its own triangle nor its neighbours in the plane block it. (By the scene's extent instead, the
-// offset under a mountain range was 6 mm and let light in below a roof.)
-float position_rounding(View view, Receiver r)
-{
-    const vec3 a = abs(r.p_world);
-    return 2.5e-6 * (max(a.x, max(a.y, a.z)) + distance(view.eye, r.p_world));
-}
-
 // Whether nothing stands before a light's point, as light_point gives it: its own plane neither. `error`: position_rounding. The ray
 // also begins as far along its way: where another surface touches the receiver's (a table's leg the floor), rounding can put the
 // point on the wrong side of that one.

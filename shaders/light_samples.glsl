@@ -9,9 +9,17 @@
 
 #define LIGHT_SAMPLE_GRID 256
 
-uint hidden_samples[8] = uint[8](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
-float hidden_area = 0.0; // of 4, the square [-1, 1]^2
-vec3 hidden_emission = vec3(0.0); // of 1, where areas are summed
+uint hidden_samples[8];
+float hidden_area; // of 4, the square [-1, 1]^2
+vec3 hidden_emission; // of 1, where areas are summed
+
+// What every receiver begins with.
+void hide_nothing()
+{
+    hidden_samples = uint[8](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    hidden_area = 0.0;
+    hidden_emission = vec3(0.0);
+}
 
 // The first border of the grid such that no sample beyond it lies below x.
 int sample_border(float x) { return int(clamp(ceil(x * (0.5 * LIGHT_SAMPLE_GRID) + (0.5 * LIGHT_SAMPLE_GRID - 0.5)), 0.0, LIGHT_SAMPLE_GRID)); }

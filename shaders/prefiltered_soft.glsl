@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The steps of percentage-closer soft shadows for methods that read averages over windows in place of texels: the window that the nearest
 // blocker allows, the blockers' mean depth in it, the window of the penumbra, the lit part of that. Include the technique's shared header
-// first: its ResolveConstants holds a SoftResolve named `soft` and a PrefilteredSoft named `prefiltered`; then give the two functions
+// first: its ResolveConstants begins with a SoftResolve named `soft` and a PrefilteredSoft named `prefiltered`; then give the two functions
 // declared below. Depths are centred (shaders/filter_values.glsl), and x = z - t is one relative to the receiver's plane: blockers have
 // x < 0.
 #ifndef GNOMON_PREFILTERED_SOFT_GLSL
@@ -87,10 +87,6 @@ float unblocked(SoftPoint p)
     return lit_part(p.at - half_width, p.at + half_width);
 }
 
-void main()
-{
-    SoftPoint p;
-    if (find_soft_point(p)) visibility = p.horizon * unblocked(p);
-}
+float soft_visibility(SoftPoint p) { return p.horizon * unblocked(p); }
 
 #endif

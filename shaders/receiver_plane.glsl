@@ -35,7 +35,12 @@ vec2 receiver_slope(LightMapLayer layer, vec3 p_world, vec3 n)
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
     const vec4 ht = layer.map_from_world * vec4(t, 0.0), hb = layer.map_from_world * vec4(b, 0.0);
     // d(h / w) = (dh w - h dw) / w^2; the powers of w cancel in the quotients
-    const vec3 x = ht.xyz * h.w - h.xyz * ht.w, y = hb.xyz * h.w - h.xyz * hb.w;
+    vec3 x = ht.xyz * h.w - h.xyz * ht.w, y = hb.xyz * h.w - h.xyz * hb.w;
+    if (layer.warped != 0) { // the stored depth is no row of the matrix; this is its first order at p
+        const float scale = -h.w * h.w * stored_per_metre(layer, dot(layer.depth_plane, vec4(p_world, 1.0)));
+        x.z = scale * dot(layer.depth_plane.xyz, t);
+        y.z = scale * dot(layer.depth_plane.xyz, b);
+    }
     const float det = x.x * y.y - x.y * y.x;
     return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
 }
@@ -51,7 +56,7 @@ ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapP
 vec2 receiver_tangent(LightMapLayer layer, float size, MapPoint m, vec3 p_world, vec3 n, float limit)
 {
     const vec2 tangent
-        = receiver_slope(layer, p_world, n) / (size * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth));
+        = receiver_slope(layer, p_world, n) / (size * stored_per_metre(layer, m.depth) * m.texel);
     return tangent * min(1.0, limit / max(length(tangent), 1e-20));
 }
 
@@ -60,7 +65,7 @@ vec2 receiver_tangent(LightMapLayer layer, float size, MapPoint m, vec3 p_world,
 ReceiverPlane cone_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, vec3 p_world, vec3 n, float opening, float limit)
 {
     ReceiverPlane r = flat_plane(layer, size, depth_step, m);
-    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth); // a texel's width as depth
+    const float texel = stored_per_metre(layer, m.depth) * max(m.texel.x, m.texel.y); // a texel's width as depth
     const float tangent = length(receiver_tangent(layer, size, m, p_world, n, limit));
     r.cone = max(opening, tangent) * texel;
     r.z += tangent * texel * PLANE_SNAP;
@@ -73,10 +78,12 @@ ReceiverPlane cone_plane(LightMapLayer layer, float size, float depth_step, MapP
 ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, MapPoint m, vec3 p_world, vec3 n, float radius, float limit)
 {
     ReceiverPlane r = flat_plane(layer, size, depth_step, m);
-    const float texel = stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    const vec2 texel = stored_per_metre(layer, m.depth) * m.texel;
     const vec2 tangent = receiver_tangent(layer, size, m, p_world, n, limit);
     r.slope = tangent * texel;
-    r.z += texel * ((abs(tangent.x) + abs(tangent.y)) * PLANE_SNAP + 6e-5 * (1.0 + dot(tangent, tangent)) * radius);
+    r.z += dot(abs(r.slope), vec2(PLANE_SNAP)) + max(texel.x, texel.y) * 6e-5 * (1.0 + dot(tangent, tangent)) * radius;
+    // A warp bends the plane in the map. Its w changes by no more than a share of 1 / size from texel to texel, and with it the slope.
+    if (layer.warped != 0) r.z += dot(abs(r.slope), vec2(layer.texel_uv)) * radius * radius;
     return r;
 }
 

@@ -16,7 +16,7 @@ float light_half_width(Light light, vec3 along)
 // Half the extents, along the map's axes, of the light as the receiver's rays cast it onto the plane through its centre that is parallel to
 // the layer: metres, or for orthographic layers the tangent of half the angle. The rays are taken for parallel. A rectangle or disk that
 // lies in that plane is itself; a sphere off the layer's axis is wider by 1 / cos; and one side of a panel seen from beside its plane, from a
-// face that it stands across, is as wide as it looks from there.
+// face that it stands across, is as wide as it looks from there. Of warped layers: in units of which a texel's width takes texel_metres.
 vec2 light_half_size(LightMapLayer layer, Light light, vec3 p_world)
 {
     const vec3 axis = layer.depth_plane.xyz;
@@ -24,12 +24,19 @@ vec2 light_half_size(LightMapLayer layer, Light light, vec3 p_world)
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
     vec2 size;
     for (int k = 0; k < 2; ++k) {
-        // a row of the projection, without the part of perspective that centres it, is an axis of the map
+        if (layer.warped != 0) {
+            const vec3 along = gradient_of_uv(layer, k, h.xy / h.w);
+            const float depth = layer.perspective != 0 ? dot(axis, p_world) + layer.depth_plane.w : 1.0;
+            size[k] = light_half_width(light, along) * (depth * layer.texel_metres / (layer.texel_uv * h.w));
+            continue;
+        }
+        // a row of the projection, without the part of perspective that puts the layer's axis into its place, is an axis of the map
         const bool perspective = layer.perspective != 0;
         vec3 row = vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]);
-        if (perspective) row -= 0.5 * axis;
+        const float centring = perspective ? dot(row, axis) : 0.0;
+        row -= centring * axis;
         const float scale = length(row);
-        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - 0.5) / scale : 0.0;
+        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - centring) / scale : 0.0;
         size[k] = light_half_width(light, row / scale - tangent * axis);
     }
     return size;

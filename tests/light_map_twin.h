@@ -12,6 +12,7 @@ struct MapPoint {
     glm::dvec2 uv;
     double z, depth, w;
     bool inside;
+    glm::dvec2 texel;
 };
 
 inline int select_layer(const shaders::LightMap& map, vec3 p_world)
@@ -24,10 +25,27 @@ inline int select_layer(const shaders::LightMap& map, vec3 p_world)
         return layer;
     }
     const vec3 d = (p_world - map.centre) * map.axes;
+    if (map.layout_kind == LIGHT_MAP_TETRAHEDRON) {
+        const float along[] = {d.x + d.y + d.z, d.x - d.y - d.z, -d.x + d.y - d.z, -d.x - d.y + d.z};
+        int most = 0;
+        for (int i = 1; i < 4; ++i)
+            if (along[i] > along[most]) most = i;
+        return most;
+    }
     int axis = 2;
     if (std::abs(d.y) >= std::abs(d[axis])) axis = 1;
     if (std::abs(d.x) >= std::abs(d[axis])) axis = 0;
     return 2 * axis + (d[axis] >= 0.0f ? 0 : 1);
+}
+
+/// The share of the next cascade.
+inline double next_share(const shaders::LightMap& map, vec3 p_world)
+{
+    if (map.layout_kind != LIGHT_MAP_CASCADES) return 0.0;
+    const int layer = select_layer(map, p_world);
+    const double depth = double(glm::dot(p_world - map.centre, map.axes[2]));
+    const double begin = double(map.bands[layer / 4][layer % 4]), end = double(map.splits[layer / 4][layer % 4]);
+    return depth > begin ? (depth - begin) / (end - begin) : 0.0;
 }
 
 inline double stored_from_depth(const shaders::LightMapLayer& layer, double depth)
@@ -45,7 +63,16 @@ inline double depth_from_stored(const shaders::LightMapLayer& layer, double z)
 inline MapPoint project(const shaders::LightMapLayer& layer, vec3 p_world)
 {
     const glm::dvec4 p(glm::dvec3(p_world), 1.0), h = glm::dmat4(layer.map_from_world) * p;
-    MapPoint m{glm::dvec2(h.x, h.y) / h.w, h.z / h.w, glm::dot(glm::dvec4(layer.depth_plane), p), h.w, false};
+    MapPoint m{glm::dvec2(h.x, h.y) / h.w, h.z / h.w, glm::dot(glm::dvec4(layer.depth_plane), p), h.w, false, {}};
+    if (layer.warped) m.z = stored_from_depth(layer, m.depth);
+    // metres across the axis by differences, in place of the shader's derivatives
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(layer.map_from_world));
+    const glm::dvec3 axis(layer.depth_plane);
+    for (int k = 0; k < 2; ++k) {
+        glm::dvec3 gradient = (glm::dvec3(rows[k]) - m.uv[k] * glm::dvec3(rows[3])) / h.w;
+        gradient -= glm::dot(gradient, axis) * axis;
+        m.texel[k] = double(layer.texel_uv) / glm::length(gradient);
+    }
     m.inside = h.w > 0.0 && m.uv.x >= 0.0 && m.uv.y >= 0.0 && m.uv.x <= 1.0 && m.uv.y <= 1.0;
     return m;
 }

@@ -63,6 +63,7 @@ struct Bench {
     Common common;
     Picture picture;
     std::vector<std::string> techniques;
+    std::string reference = "shadow_map:map_size=2048";
     int repeats = 10;
 };
 int bench(const Bench&);
@@ -97,6 +98,12 @@ struct Figures {
     std::string file, output;
 };
 int figures(const Figures&);
+
+struct Curves {
+    Common common;
+    std::string output;
+};
+int curves(const Curves&);
 
 struct Folder {
     Common common;

@@ -108,7 +108,8 @@ int run(int argc, char** argv)
     render_app
         ->add_option("--aov", render.aovs,
             "Also write these images, as NAME after the file's name: visibility, depth, normal, geometric_normal, albedo, surface, "
-            "primitive, position, motion")
+            "primitive, position, motion; of the technique's map, pixels per texel: texel_footprint, texel_footprint_perspective, "
+            "texel_footprint_projection")
         ->delimiter(',');
     render_app->add_option("--samples", render.samples, "Pictures averaged for anti-aliasing")
         ->check(CLI::Range(1, 4096))
@@ -158,12 +159,13 @@ int run(int argc, char** argv)
     add_common(*compare_app, compare.common);
 
     cli::Bench bench;
-    CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's in the same run");
+    CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's and to a reference technique's in the same run");
     bench.picture.size = "1024x768";
     bench.picture.scene = "citadel";
     add_picture(*bench_app, bench.picture);
     bench_app->get_option("scene")->required(false);
     bench_app->add_option("--techniques", bench.techniques, "Ids with parameters (default: shadow_map)")->delimiter(',');
+    bench_app->add_option("--reference", bench.reference, "Technique that all are divided by")->capture_default_str();
     bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(2, 10000))
         ->capture_default_str();
@@ -179,6 +181,11 @@ int run(int argc, char** argv)
     figures_app->add_option("file", figures.file, "A figures file, as experiments/*/figures.json")->required();
     figures_app->add_option("-o,--output", figures.output, "Folder for the page and its pictures (default: the file's own)");
     add_common(*figures_app, figures.common);
+
+    cli::Curves curves;
+    CLI::App* curves_app = app.add_subcommand("curves", "Plots and tables of light maps' perspective error, from its equations");
+    curves_app->add_option("-o,--output", curves.output, "Folder for them (default: experiments/sampling_error in the checkout)");
+    add_common(*curves_app, curves.common, false);
 
     cli::Sweep sweep;
     cli::Merge merge;
@@ -226,6 +233,7 @@ int run(int argc, char** argv)
         return cli::slice(slice);
     }
     if (*figures_app) return cli::figures(figures);
+    if (*curves_app) return cli::curves(curves);
     if (*sweep_app) return cli::sweep(sweep);
     if (*merge_app) return cli::merge(merge);
     if (*new_app) return cli::new_technique(fresh);

@@ -61,7 +61,8 @@ ImagePart part_of(const Binding& b, const ImageDesc& desc, const ReflectedBindin
     return part;
 }
 
-void check_bound(const Bound& bound, std::span<const Listed<Image, ImageDesc>> images, size_t buffer_count, bool others)
+void check_bound(
+    const Bound& bound, std::span<const Listed<Image, ImageDesc>> images, std::span<const Listed<Buffer, BufferDesc>> buffers, bool others)
 {
     if (!bound.program) throw std::logic_error(fmt::format("pass '{}' has no program", bound.pass));
     const auto& program = static_cast<const ProgramImpl&>(*bound.program);
@@ -73,7 +74,7 @@ void check_bound(const Bound& bound, std::span<const Listed<Image, ImageDesc>> i
         wrong(fmt::format("the pass lists {} bindings, and the shader has none at binding {} (or does not use it)", count, count - 1));
     for (size_t i = 0; i < count; ++i) {
         const Binding& b = bound.bindings[i];
-        if (!b.accel && (b.image ? b.image.index >= images.size() : b.buffer.index >= buffer_count))
+        if (!b.accel && (b.image ? b.image.index >= images.size() : b.buffer.index >= buffers.size()))
             wrong(fmt::format("binding {} names no image or buffer of this list; import it or make a transient", i));
     }
     for (const auto& declared : program.bindings) {
@@ -102,6 +103,10 @@ void check_bound(const Bound& bound, std::span<const Listed<Image, ImageDesc>> i
     if (bound.constants.bytes.size() != program.constants_bytes)
         wrong(fmt::format("the constants have {} bytes and the shader's block has {} (0 also where the shader uses none of it)",
             bound.constants.bytes.size(), program.constants_bytes));
+    for (const Constants::Patch& p : bound.constants.patches)
+        if (p.source.index >= buffers.size() || uint64_t(p.source_offset) + p.bytes > buffers[p.source.index].desc.bytes
+            || uint64_t(p.offset) + p.bytes > bound.constants.bytes.size() || (p.source_offset | p.offset | p.bytes) % 4 != 0)
+            wrong("a patch of the constants lies outside of them, is no multiple of 4 or comes from no buffer of this list");
     if (program.textures && !bound.textures) wrong("the shader uses the texture table, and the pass gives none");
 }
 

@@ -51,21 +51,21 @@ BufferId PassList::transient(const BufferDesc& desc)
 
 void PassList::compute(ComputePass pass)
 {
-    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), false);
+    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers, false);
     std::string name = impl_->prefix() + pass.name;
     impl_->passes.push_back({std::move(name), std::move(pass)});
 }
 
 void PassList::trace(RayPass pass)
 {
-    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), false);
+    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers, false);
     std::string name = impl_->prefix() + pass.name;
     impl_->passes.push_back({std::move(name), std::move(pass)});
 }
 
 void PassList::raster(RasterPass pass)
 {
-    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), true);
+    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers, true);
     const auto& images = impl_->images;
     const auto attachment = [&](ImageId id, bool depth) {
         if (id.index >= images.size() || is_depth(images[id.index].desc.format) != depth)
@@ -88,7 +88,7 @@ void PassList::raster(RasterPass pass)
 
 void PassList::fullscreen(FullscreenPass pass)
 {
-    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers.size(), false);
+    check_bound({pass.name, pass.program, pass.bindings, pass.constants, pass.textures}, impl_->images, impl_->buffers, false);
     RasterPass r;
     r.name = std::move(pass.name);
     r.program = pass.program;

@@ -93,7 +93,13 @@ struct Binding {
 
 /// Bytes of a constants struct (scalar layout = the C++ layout of 4-byte members).
 struct Constants {
+    /// Part of them that an earlier pass has written into a buffer.
+    struct Patch {
+        BufferId source;
+        uint32_t source_offset, offset, bytes;
+    };
     std::vector<std::byte> bytes;
+    std::vector<Patch> patches{}; ///< copied over `bytes` on the device before the pass; multiples of 4
     Constants() = default;
     template <class T>
     requires std::is_trivially_copyable_v<T> Constants(const T& v)

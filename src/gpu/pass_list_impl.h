@@ -62,6 +62,6 @@ struct Bound {
     const TextureTable* textures;
 };
 /// Throws std::logic_error that names pass, shader and binding. `others`: other programs of the pass may use further bindings.
-void check_bound(const Bound&, std::span<const Listed<Image, ImageDesc>>, size_t buffer_count, bool others);
+void check_bound(const Bound&, std::span<const Listed<Image, ImageDesc>>, std::span<const Listed<Buffer, BufferDesc>>, bool others);
 
 } // namespace gnomon::gpu

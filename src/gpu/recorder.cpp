@@ -56,8 +56,8 @@ Recorder::Recorder(Context& c, ListData& list, Submission& submission, VkCommand
     for (const auto& pass : list.passes)
         if (const Constants* k = constants_of(pass)) bytes += aligned(k->bytes.size(), c.properties.limits.minUniformBufferOffsetAlignment);
     if (bytes)
-        submission.constants = c.transients.take(
-            {std::bit_ceil(std::max<uint64_t>(bytes, 4096)), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::upload, "constants"});
+        submission.constants = c.transients.take({std::bit_ceil(std::max<uint64_t>(bytes, 4096)),
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Memory::upload, "constants"});
 }
 
 Image& Recorder::image(ImageId id) const
@@ -119,9 +119,28 @@ void Recorder::begin_transfer()
     binding_use_.clear();
 }
 
+void Recorder::patch(const Constants& constants)
+{
+    if (constants.patches.empty()) return;
+    begin_transfer();
+    for (const Constants::Patch& p : constants.patches)
+        if (!declared(p.source, Use::copy_from)) use(p.source, Use::copy_from, PassKind::transfer);
+    end_uses("constants");
+    for (const Constants::Patch& p : constants.patches) {
+        const VkBufferCopy region{p.source_offset, constants_used_ + p.offset, p.bytes};
+        c_.vk.vkCmdCopyBuffer(commands_, buffer(p.source).handle(), submission_.constants.handle(), 1, &region);
+    }
+    const VkBufferMemoryBarrier2 written{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_COPY_BIT,
+        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_UNIFORM_READ_BIT, VK_QUEUE_FAMILY_IGNORED,
+        VK_QUEUE_FAMILY_IGNORED, submission_.constants.handle(), constants_used_, constants.bytes.size()};
+    const VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO, nullptr, 0, 0, nullptr, 1, &written, 0, nullptr};
+    c_.vk.vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
 void Recorder::begin_pass(PassKind kind, const ProgramImpl& program, const std::vector<Binding>& bindings, const Constants& constants,
     const TextureTable* textures)
 {
+    patch(constants);
     begin_transfer();
     bindings_ = &bindings;
     textures_ = textures;

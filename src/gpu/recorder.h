@@ -24,6 +24,7 @@ public:
 private:
     void begin_pass(PassKind, const ProgramImpl&, const std::vector<Binding>&, const Constants&, const TextureTable*);
     void begin_transfer();
+    void patch(const Constants&); ///< those of the coming pass, where they will lie
     void use(ImageId, const Range&, Use, PassKind, bool needs_content);
     void use(BufferId, Use, PassKind);
     void end_uses(const std::string& pass); ///< all barriers of the pass, in one call

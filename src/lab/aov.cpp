@@ -3,20 +3,26 @@
 
 #include "base/hash.h"
 #include "lab/render.h"
+#include "shadow/parts/texel_footprint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace gnomon::lab {
 
 const std::vector<std::string>& aov_names()
 {
-    static const std::vector<std::string> names
-        = {"visibility", "depth", "normal", "geometric_normal", "albedo", "surface", "primitive", "position", "motion"};
+    static const std::vector<std::string> names = {"visibility", "depth", "normal", "geometric_normal", "albedo", "surface", "primitive",
+        "position", "motion", "texel_footprint", "texel_footprint_perspective", "texel_footprint_projection"};
     return names;
 }
 
 namespace {
+
+/// By the channels of shadow::parts::draw_texel_footprint.
+constexpr const char* footprint_names[] = {"texel_footprint", "texel_footprint_perspective", "texel_footprint_projection"};
 
 vec3 decode_normal(uint32_t code)
 {
@@ -63,6 +69,26 @@ base::Picture first_channels(const base::Picture& in, int channels)
     return out;
 }
 
+base::Picture one_channel(const base::Picture& in, int channel)
+{
+    base::Picture out(in.size, 1);
+    for (size_t i = 0; i < in.size.area(); ++i) out.values[i] = in.values[i * size_t(in.channels) + size_t(channel)];
+    return out;
+}
+
+/// Octaves: white where a texel is one to two pixels long, blue below, yellow to dark red above, each colour a factor of two.
+vec3 footprint_color(float value)
+{
+    static constexpr float ramp[][3] = {{0.03f, 0.09f, 0.30f}, {0.08f, 0.23f, 0.52f}, {0.20f, 0.43f, 0.72f}, {0.50f, 0.69f, 0.86f},
+        {0.95f, 0.95f, 0.95f}, {1.00f, 0.90f, 0.55f}, {0.99f, 0.72f, 0.30f}, {0.96f, 0.48f, 0.18f}, {0.85f, 0.22f, 0.13f},
+        {0.62f, 0.05f, 0.12f}, {0.36f, 0.00f, 0.14f}};
+    constexpr int one = 4, last = int(std::size(ramp)) - 1;
+    if (!(value > 0.0f)) return vec3(0);
+    const float octave = std::clamp(std::floor(std::log2(value)), float(-one), float(last - one));
+    const float* c = ramp[one + int(octave)];
+    return {c[0], c[1], c[2]};
+}
+
 } // namespace
 
 AovCopies::AovCopies(gpu::Device& device, base::Size size, const std::set<std::string>& names)
@@ -81,6 +107,7 @@ AovCopies::AovCopies(gpu::Device& device, base::Size size, const std::set<std::s
     make("surface", VK_FORMAT_R8G8B8A8_UNORM, {"surface"});
     make("primitive", VK_FORMAT_R32_UINT, {"primitive"});
     make("motion", VK_FORMAT_R32G32_SFLOAT, {"motion"});
+    make("footprint", VK_FORMAT_R32G32B32A32_SFLOAT, {footprint_names[0], footprint_names[1], footprint_names[2]});
 }
 
 void AovCopies::record(gpu::PassList& passes, const shadow::GBuffer& g)
@@ -89,6 +116,11 @@ void AovCopies::record(gpu::PassList& passes, const shadow::GBuffer& g)
         {"surface", g.surface}, {"primitive", g.primitive}, {"motion", g.motion}};
     for (const auto& [name, id] : sources)
         if (auto found = images_.find(name); found != images_.end() && id) passes.copy(id, passes.import(found->second), "copy aov");
+}
+
+void AovCopies::record_footprint(gpu::PassList& passes, const shadow::GBuffer& g, const scene::View& view, const shaders::LightMap& map)
+{
+    shadow::parts::draw_texel_footprint(passes, g, view, map, passes.import(images_.at("footprint")));
 }
 
 std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const Stage& stage)
@@ -108,6 +140,11 @@ std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const 
     if (images_.count("albedo")) out["albedo"] = first_channels(device.read_back(images_["albedo"]), 3);
     if (images_.count("surface")) out["surface"] = first_channels(device.read_back(images_["surface"]), 2);
     if (images_.count("motion")) out["motion"] = device.read_back(images_["motion"]);
+    if (wants_footprint()) {
+        const base::Picture channels = device.read_back(images_["footprint"]);
+        for (int c = 0; c < 3; ++c)
+            if (wants(footprint_names[c])) out[footprint_names[c]] = one_channel(channels, c);
+    }
     if (images_.count("primitive")) {
         const std::vector<std::byte> texels = device.read_back_bytes(images_["primitive"]);
         base::Picture ids(stage.view.size, 1);
@@ -130,6 +167,11 @@ base::Picture aov_display(const std::string& name, const base::Picture& in)
     }
     if (name == "albedo" || name == "visibility") return in;
     base::Picture out(in.size, 3);
+    if (std::find(std::begin(footprint_names), std::end(footprint_names), name) != std::end(footprint_names)) {
+        for (size_t i = 0; i < in.size.area(); ++i)
+            for (int c = 0; c < 3; ++c) out.values[i * 3 + size_t(c)] = footprint_color(in.values[i])[c];
+        return out;
+    }
     float largest = 1e-20f;
     for (const float v : in.values) largest = std::max(largest, std::abs(v));
     for (size_t i = 0; i < in.size.area(); ++i)

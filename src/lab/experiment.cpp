@@ -22,7 +22,7 @@ const std::vector<std::string>& identity_columns()
 const std::vector<std::string>& number_columns()
 {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> out = {"ms", "ms_deviation", "gbuffer_ms", "mib", "scored_pixels", "excluded_pixels", "flip"};
+        std::vector<std::string> out = {"ms", "ms_deviation", "gbuffer_ms", "passes", "mib", "scored_pixels", "excluded_pixels", "flip"};
         for (const metrics::Metric& m : metrics::metrics()) out.emplace_back(m.id);
         for (const metrics::Metric& m : metrics::filter_metrics()) out.emplace_back(m.id);
         return out;

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/image_file.h"
 #include "base/progress.h"
+#include "lab/aov.h"
 #include "lab/compare.h"
 #include "metrics/metrics.h"
 
@@ -72,6 +73,7 @@ public:
             return write(display(shade_with(device_, *open.scene, open.stage, {truth(open).visibility.mean}, {}), open.stage), panel, file,
                 base::Encoding::srgb);
         if (is_truth) base::fail("the panel '{}' shows an error of the truth; name a technique", panel.label);
+        if (panel.show >= Show::texel_footprint) return write(footprint(open, panel), panel, file, base::Encoding::linear);
         const Rendered rendered = render(
             device_, *open.scene, open.stage, parse_choice(panel.technique), {.lit = panel.show == Show::lit, .aovs = scored_aovs});
         if (panel.show == Show::lit) return write(display(rendered.radiance, open.stage), panel, file, base::Encoding::srgb);
@@ -107,6 +109,15 @@ private:
             ? slice_truth(open.stage, slice, truth::Quantity::visibility, truth_samples_)
             : slice_image(device_, *open.scene, open.stage, slice, parse_choice(panel.technique));
         return slice_display(image, slice_outline(open.stage.scene, slice));
+    }
+
+    base::Picture footprint(Open& open, const FigurePanel& panel) const
+    {
+        const std::string name = panel.show == Show::texel_footprint ? "texel_footprint"
+            : panel.show == Show::texel_footprint_perspective        ? "texel_footprint_perspective"
+                                                                     : "texel_footprint_projection";
+        return aov_display(
+            name, render(device_, *open.scene, open.stage, parse_choice(panel.technique), {.lit = false, .aovs = {name}}).aovs.at(name));
     }
 
     base::Picture error_of(Open& open, const FigurePanel& panel, const Rendered& rendered) const

@@ -13,7 +13,7 @@
 // them.
 namespace gnomon::lab {
 
-enum class Show { lit, visibility, error, filter_error, slice };
+enum class Show { lit, visibility, error, filter_error, slice, texel_footprint, texel_footprint_perspective, texel_footprint_projection };
 
 struct FigurePanel {
     std::string label, technique; ///< technique: parse_choice, or "truth"

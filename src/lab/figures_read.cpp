@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const std::vector<std::string> shows = {"lit", "visibility", "error", "filter_error", "slice"};
+const std::vector<std::string> shows = {
+    "lit", "visibility", "error", "filter_error", "slice", "texel_footprint", "texel_footprint_perspective", "texel_footprint_projection"};
 /// What a figure says for all its panels and a panel for itself.
 const std::vector<std::string> panel_keys = {"label", "technique", "show", "scene", "detail", "camera", "light", "size", "reference",
     "gain", "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};

@@ -66,8 +66,15 @@ public:
         for (size_t i = 0; i < stage_.lights.size(); ++i) {
             const gpu::ImageId output = passes.import(targets_.images[i]);
             passes.group(std::string(choice_.info->id));
-            techniques_[i]->record(passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame}, choice_.params.bytes());
+            shaders::LightMap map{};
+            techniques_[i]->record(
+                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame, &map}, choice_.params.bytes());
             passes.group("");
+            if (i == 0 && aovs && aovs->wants_footprint()) {
+                if (map.layer_count == 0)
+                    base::fail("{} looks its shadows up in no light map whose texels could be shown", choice_.info->id);
+                aovs->record_footprint(passes, g, view, map);
+            }
             shadowed.push_back({&stage_.lights[i], output});
         }
         passes.copy(g.primitive, passes.import(targets_.primitive), "copy primitive");
@@ -100,26 +107,29 @@ struct Sums {
     double deviation() const { return count > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1))) : 0; }
 };
 
-/// Passes of one name in one frame (several lights) are added up.
+/// Passes of one name in one frame (several lights or layers) are added up.
 void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs, std::string_view id)
 {
     const std::string own = std::string(id) + "/";
     std::vector<std::string> names;
     std::map<std::string, Sums> sums;
+    std::map<std::string, int> counts;
     Sums technique;
     for (const auto& run : runs) {
         std::map<std::string, double> frame;
+        counts.clear();
         double total = 0;
         for (const gpu::PassTime& t : run) {
             if (std::find(names.begin(), names.end(), t.name) == names.end()) names.push_back(t.name);
             frame[t.name] += t.ms;
+            ++counts[t.name];
             if (t.name.starts_with(own)) total += t.ms;
         }
         for (const auto& [name, ms] : frame) sums[name].add(ms);
         technique.add(total);
     }
     for (const std::string& name : names)
-        if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation()});
+        if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation(), counts[name]});
     out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
 }
 

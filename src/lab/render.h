@@ -26,6 +26,7 @@ std::string choice_text(const Choice&); ///< what parse_choice reads: the id, an
 struct PassStats {
     std::string name;
     double ms, deviation; ///< mean and standard deviation
+    int count = 1; ///< passes of that name in a frame, whose times are added up
 };
 
 struct RenderSettings {
@@ -37,7 +38,8 @@ struct RenderSettings {
     std::set<std::string> aovs; ///< aov_names()
     shadow::LightingSettings lighting;
 };
-const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion
+const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion,
+                                             ///< and texel_footprint, texel_footprint_perspective, texel_footprint_projection
 
 struct Rendered {
     base::Picture radiance; ///< RGB, scene-referred linear; empty unless lit

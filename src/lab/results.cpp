@@ -16,7 +16,8 @@ nlohmann::ordered_json run_json(const Run& run)
         return out;
     }
     out["passes"] = nlohmann::ordered_json::array();
-    for (const PassStats& pass : run.passes) out["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}});
+    for (const PassStats& pass : run.passes)
+        out["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}, {"count", pass.count}});
     out["technique_ms"] = run.technique_ms;
     out["technique_deviation"] = run.technique_deviation;
     out["bytes"] = run.bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 #include "base/file.h"
+#include "lab/plot.h"
 #include "lab/sweep.h"
 
 #include <fmt/format.h>
@@ -24,17 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Point {
-    std::string label; ///< x as text
-    double x, y, deviation;
-};
-struct Series {
-    std::string name;
-    size_t color, dash; ///< by the first column of the series, and by the rest
-    bool joined; ///< by lines
-    std::vector<Point> points;
-};
-
 std::optional<double> as_number(const std::string& text)
 {
     double value = 0;
@@ -43,9 +33,9 @@ std::optional<double> as_number(const std::string& text)
     return value;
 }
 
-std::vector<Point> points_of(const PlotSpec& plot, const std::vector<Row>& rows, bool measured)
+std::vector<PlotPoint> points_of(const PlotSpec& plot, const std::vector<Row>& rows, bool measured)
 {
-    std::vector<Point> out;
+    std::vector<PlotPoint> out;
     if (measured && plot.points.empty()) {
         for (const Row& row : rows)
             if (row.number(plot.x) && row.number(plot.y)) out.push_back({"", *row.number(plot.x), *row.number(plot.y), 0});
@@ -61,11 +51,11 @@ std::vector<Point> points_of(const PlotSpec& plot, const std::vector<Row>& rows,
 }
 
 /// One series for each combination of the series' columns; runs that share x too are averaged.
-std::vector<Series> collect(const PlotSpec& plot, const std::vector<Row>& rows)
+std::vector<PlotSeries> collect(const PlotSpec& plot, const std::vector<Row>& rows)
 {
     const bool measured
         = std::find(number_columns().begin(), number_columns().end(), plot.x) != number_columns().end() || plot.x.rfind("pass:", 0) == 0;
-    std::vector<Series> out;
+    std::vector<PlotSeries> out;
     std::map<std::string, size_t> colors, dashes;
     std::map<std::pair<std::string, std::set<const void*>>, size_t> drawn;
     for (const RowGroup& group : grouped(rows, plot.series, plot.where)) {
@@ -99,21 +89,21 @@ std::string text(const std::string& in)
 constexpr const char* colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444", "#8c6d1f"};
 
 /// The texts of x in their order, where they are words.
-std::vector<std::string> labels_of(const std::vector<Series>& series)
+std::vector<std::string> labels_of(const std::vector<PlotSeries>& series)
 {
     std::vector<std::string> out;
-    for (const Series& s : series)
-        for (const Point& p : s.points)
+    for (const PlotSeries& s : series)
+        for (const PlotPoint& p : s.points)
             if (std::find(out.begin(), out.end(), p.label) == out.end()) out.push_back(p.label);
     return out;
 }
 
 /// Tics at the values of an axis that has few of them, and nothing between.
-std::string number_axis(const PlotSpec& plot, const std::vector<Series>& series)
+std::string number_axis(const PlotSpec& plot, const std::vector<PlotSeries>& series)
 {
     std::set<double> xs;
-    for (const Series& s : series)
-        for (const Point& p : s.points)
+    for (const PlotSeries& s : series)
+        for (const PlotPoint& p : s.points)
             if (!p.label.empty()) xs.insert(p.x);
     if (xs.empty() || xs.size() > 12) return "";
     const double low = *xs.begin(), high = *xs.rbegin(), pad = low == high ? 1 : 0.05 * (high - low);
@@ -122,7 +112,7 @@ std::string number_axis(const PlotSpec& plot, const std::vector<Series>& series)
         plot.log_x ? high * factor : high + pad);
 }
 
-std::string style(const Series& s, bool words)
+std::string style(const PlotSeries& s, bool words)
 {
     const std::string color = fmt::format("lc '{}'", colors[s.color % std::size(colors)]);
     const size_t dash = s.dash + s.color / std::size(colors); // colours that come again are dashed
@@ -131,11 +121,12 @@ std::string style(const Series& s, bool words)
     constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
     const std::string mark = fmt::format("pt {} ps 0.7 {}", marks[dash % std::size(marks)], color);
     if (!s.joined) return "using 1:2 with points " + mark;
-    const bool bars = std::any_of(s.points.begin(), s.points.end(), [](const Point& p) { return p.deviation > 0; });
+    if (!s.marked) return fmt::format("using 1:2 with lines lw 2 dt {} {}", 1 + dash % 5, color);
+    const bool bars = std::any_of(s.points.begin(), s.points.end(), [](const PlotPoint& p) { return p.deviation > 0; });
     return fmt::format("{} lw 2 dt {} {}", bars ? "using 1:2:3 with yerrorlines" : "using 1:2 with linespoints", 1 + dash % 5, mark);
 }
 
-std::string script(const PlotSpec& plot, const std::vector<Series>& series, bool words)
+std::string script(const PlotSpec& plot, const std::vector<PlotSeries>& series, bool words)
 {
     std::string out
         = fmt::format("set terminal svg size 800,500 dynamic noenhanced background '#ffffff' font 'sans-serif,14'\nset output {}\n"
@@ -155,7 +146,7 @@ std::string script(const PlotSpec& plot, const std::vector<Series>& series, bool
         out += number_axis(plot, series);
     for (size_t i = 0; i < series.size(); ++i) {
         out += fmt::format("$d{} << EOD\n", i);
-        for (const Point& p : series[i].points) {
+        for (const PlotPoint& p : series[i].points) {
             const double group = double(std::find(labels.begin(), labels.end(), p.label) - labels.begin());
             out += fmt::format("{} {} {}\n", words ? group + (double(i) + 0.5) * width - 0.4 : p.x, p.y, p.deviation);
         }
@@ -189,14 +180,18 @@ int gnuplot(const fs::path& script_file, const fs::path& log)
 
 std::string draw_plot(const PlotSpec& plot, const std::vector<Row>& rows, const fs::path& file)
 {
-    std::vector<Series> series = collect(plot, rows);
+    return draw_series(plot, collect(plot, rows), file);
+}
+
+std::string draw_series(const PlotSpec& plot, std::vector<PlotSeries> series, const fs::path& file)
+{
     bool words = false;
-    for (const Series& s : series)
-        for (const Point& p : s.points) words = words || std::isnan(p.x);
+    for (const PlotSeries& s : series)
+        for (const PlotPoint& p : s.points) words = words || std::isnan(p.x);
     // nothing can be drawn at 0 of a logarithmic axis
-    for (Series& s : series)
-        std::erase_if(s.points, [&](const Point& p) { return (plot.log_y && !(p.y > 0)) || (plot.log_x && !words && !(p.x > 0)); });
-    std::erase_if(series, [](const Series& s) { return s.points.empty(); });
+    for (PlotSeries& s : series)
+        std::erase_if(s.points, [&](const PlotPoint& p) { return (plot.log_y && !(p.y > 0)) || (plot.log_x && !words && !(p.x > 0)); });
+    std::erase_if(series, [](const PlotSeries& s) { return s.points.empty(); });
     if (series.empty()) return fmt::format("the plot '{}' is not made: no finished run has a {} that can be drawn", plot.title, plot.y);
     const fs::path name = fs::absolute(file);
     fs::path script_file = name, log = name;

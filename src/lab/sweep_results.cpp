@@ -67,6 +67,15 @@ std::optional<double> pass_ms(const Json& line, const std::string& owner, std::s
     return sum;
 }
 
+size_t own_passes(const Json& line)
+{
+    size_t count = 0;
+    const std::string owner = line.at("technique").get<std::string>() + "/";
+    for (const Json& pass : line.at("passes"))
+        if (pass.is_object() && pass.value("name", "").rfind(owner, 0) == 0) count += pass.value("count", size_t(1));
+    return count;
+}
+
 } // namespace
 
 Provenance provenance(const gpu::Device& device)
@@ -136,6 +145,7 @@ std::optional<double> Row::number(const std::string& column) const
     if (column == "ms_deviation") return number_at(*line, "technique_deviation");
     if (column == "gbuffer_ms") return pass_ms(*line, "", "gbuffer");
     if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/", column.substr(5));
+    if (column == "passes") return double(own_passes(*line));
     if (column == "scored_pixels" || column == "excluded_pixels") return number_at(*line, column);
     if (column != "mib") return number_at(line->at("metrics"), column);
     const std::optional<double> bytes = number_at(*line, "bytes");

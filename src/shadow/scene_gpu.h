@@ -59,6 +59,12 @@ public:
     /// Draw calls for the chosen triangles inside a raster pass; returns the triangles sent.
     uint64_t draw(gpu::Encoder&, const DrawOptions&);
 
+    /// For draws that the GPU chooses: one shaders::Caster (src/shadow/casters.shared.h) a slot, in the order of instances().
+    gpu::Buffer& casters();
+    uint32_t slot_count() const;
+    /// The slots of `sets` by their VkDrawIndexedIndirectCommand, one a slot from `offset` on; the pass names `commands` in `buffers`. Of
+    /// the options `sets` and `second` are read.
+    void draw_indirect(gpu::Encoder&, const DrawOptions&, gpu::BufferId commands, uint64_t offset);
     /// What `draw` sends for one instance, for techniques that cull on the device.
     struct Drawable {
         uint32_t slot; ///< in instances()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/scene_gpu_impl.h"
+#include "src/shadow/casters.shared.h"
 
 #include <algorithm>
 
@@ -67,6 +68,41 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
         first = end;
     }
     return triangles;
+}
+
+uint32_t SceneGpu::slot_count() const { return uint32_t(impl_->slots.size()); }
+
+gpu::Buffer& SceneGpu::casters()
+{
+    Impl& s = *impl_;
+    if (s.casters) return s.casters;
+    std::vector<shaders::Caster> all;
+    for (const Slot& slot : s.slots) {
+        const MeshRange& range = s.ranges[slot.mesh];
+        all.push_back({slot.bounds.min, slot.bounds.max, range.index_count, range.first_index, int32_t(range.first_vertex),
+            uint32_t(slot.set == draw_blended)});
+    }
+    all.resize(std::max<size_t>(all.size(), 1));
+    s.casters = s.device->buffer({all.size() * sizeof(shaders::Caster), 0, gpu::Memory::device, "casters"});
+    s.device->upload(s.casters, std::as_bytes(std::span(all)));
+    return s.casters;
+}
+
+void SceneGpu::draw_indirect(gpu::Encoder& encoder, const DrawOptions& options, gpu::BufferId commands, uint64_t offset)
+{
+    const Impl& s = *impl_;
+    encoder.vertex_buffer(0, s.positions);
+    if (options.second == Second::attributes) encoder.vertex_buffer(1, s.attributes);
+    if (options.second == Second::previous) encoder.vertex_buffer(1, previous_positions());
+    encoder.index_buffer(s.indices);
+    constexpr uint32_t stride = sizeof(shaders::DrawCommand);
+    for (uint32_t first = 0; first < s.slots.size();) {
+        uint32_t end = first;
+        // every device takes so many commands at once
+        while (end < s.slots.size() && end - first < 65535 && (s.slots[end].set & options.sets) != 0) ++end;
+        if (end > first) encoder.draw_indexed_indirect(commands, offset + uint64_t(first) * stride, end - first, stride);
+        first = std::max(end, first + 1);
+    }
 }
 
 std::vector<SceneGpu::Drawable> SceneGpu::drawables() const

@@ -53,7 +53,7 @@ struct SceneGpu::Impl {
     bool emits = false;
     std::vector<MeshRange> ranges; ///< by mesh
     std::vector<Slot> slots;
-    gpu::Buffer positions, attributes, indices, instances, materials, previous, previous_instances;
+    gpu::Buffer positions, attributes, indices, instances, materials, previous, previous_instances, casters;
     std::vector<gpu::Image> images;
     gpu::TextureTable textures;
     std::vector<gpu::AccelerationStructure> blas; ///< by mesh; empty entries for meshes that block no light

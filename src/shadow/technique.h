@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/pass_list.h"
 #include "scene/scene.h"
+#include "shaders/light_map.shared.h"
 #include "shadow/gbuffer.h"
 #include "shadow/params.h"
 #include "shadow/scene_gpu.h"
@@ -46,6 +47,7 @@ struct Frame {
     gpu::ImageId output; ///< output_format, size of the view; every pixel is to be written (background: 1, or 0 for inscatter and
                          ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
+    shaders::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves its layers here
 };
 
 /// One algorithm for one scene and one light, with what it keeps between frames (a member; a new scene or light is a new object).
@@ -79,6 +81,7 @@ struct TechniqueInfo {
     bool soft = false; ///< computes penumbrae of lights with an area; false: treats every light as its centre
     bool textured = false; ///< of a light with an image it writes the visibility in each channel, in the format of transmittance; false:
                            ///< takes the light as uniform
+    bool partial = false; ///< shadows only some surfaces, or by some casters, as its page says; all else is lit as if nothing cast
     bool exact = false; ///< differs from truth only in a stated band at true edges
     bool temporal = false; ///< keeps state between frames: the lab warms it up and tests it from a reset
     ParamTable (*params)() = no_params;

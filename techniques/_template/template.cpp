@@ -6,6 +6,8 @@
 #include "shadow/parts/light_map.h"
 #include "shadow/technique.h"
 
+#include <cstddef>
+
 namespace gnomon::techniques::template_id {
 
 namespace {
@@ -33,8 +35,9 @@ private:
             .program = &resolve_,
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample, gpu::Sampler::compare_nearest).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
-                map.constants, params},
+            .constants = parts::with_map(ResolveConstants{view_constants(frame.view, frame.index),
+                                             light_constants(frame.light, frame.resources.bounds()), map.constants, params},
+                map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
 

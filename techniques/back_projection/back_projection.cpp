@@ -53,11 +53,12 @@ class BackProjection final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& given) override
     {
         Params params = given;
+        params.soft.fitting = parts::unwarped(params.soft.fitting);
         if (params.search == SEARCH_MAP) params.soft.map_size = std::min(params.soft.map_size, 256);
         const parts::SoftMap map = parts::draw_soft_map(passes, frame, params.soft);
         std::vector<gpu::ImageId> layers{map.map.depth};
         while (int(layers.size()) < params.layers)
-            layers.push_back(parts::peel_light_map(passes, frame, map.map.constants, parts::soft_map_settings(params.soft), layers.back()));
+            layers.push_back(parts::peel_light_map(passes, frame, map.map, parts::soft_map_settings(params.soft), layers.back()));
         const gpu::ImageId pyramid = parts::build_min_max_pyramid(passes, layers);
         parts::NBuffer windows{pyramid, {}};
         if (params.ranges != RANGES_PYRAMID)
@@ -69,7 +70,7 @@ class BackProjection final : public TechniqueWith<Params> {
         const bool disk = frame.light.kind() != scene::LightKind::rect;
         const int count = params.accumulate == 2 ? 256 : 64;
         const gpu::BufferId table = passes.import(samples(passes.device(), count, disk));
-        parts::resolve_soft(passes, frame, "techniques/back_projection/back_projection_resolve.frag", spec,
+        parts::resolve_soft(passes, frame, map.map, "techniques/back_projection/back_projection_resolve.frag", spec,
             ResolveConstants{map.constants, params, windows.constants},
             {gpu::Binding(pyramid, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {table, gpu::Use::load},
                 {textured ? passes.import(image(passes.device(), frame.light.image, count)) : table, gpu::Use::load},

@@ -77,13 +77,17 @@ vec2 along_sides(LightFrame f, vec2 p)
     return f.exchanged ? p.yx : p;
 }
 
-// The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that centres it.
+// Where a perspective layer's own axis falls, in uv.
+vec2 axis_uv(LightMapLayer layer) { return (mat3(layer.map_from_world) * layer.depth_plane.xyz).xy; }
+
+// The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that puts the axis into
+// its place.
 mat3 layer_axes(LightMapLayer layer)
 {
     const vec3 depth = layer.depth_plane.xyz;
     const mat3 rows = transpose(mat3(layer.map_from_world));
-    const float centring = layer.perspective != 0 ? 0.5 : 0.0;
-    return mat3(normalize(rows[0] - centring * depth), normalize(rows[1] - centring * depth), depth);
+    const vec2 centring = layer.perspective != 0 ? axis_uv(layer) : vec2(0.0);
+    return mat3(normalize(rows[0] - centring.x * depth), normalize(rows[1] - centring.y * depth), depth);
 }
 
 // Axes: the map's, depth last; t: tangents of the receiver's direction; d: its depth. A sphere is projected onto the plane along the ray

@@ -260,10 +260,8 @@ vec3 colored_visibility(SoftPoint p, float visible)
     return max(vec3(0.0), above - (1.0 - seen));
 }
 
-void main()
+vec4 soft_visibility(SoftPoint p)
 {
-    SoftPoint p;
-    if (!find_soft_point(p)) return;
     const LightMapLayer layer = c.soft.map.layers[p.layer];
     const vec3 p_world = p.receiver.p_world;
     const float depth = dot(layer.depth_plane, vec4(p_world, 1.0));
@@ -281,11 +279,12 @@ void main()
     v.slice = vec2(-1.0, 1e30);
     v.size = int(c.soft.map.size);
 
-    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - 0.5 * c.soft.map.size) * layer.texel_metres, depth);
+    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - axis_uv(layer) * c.soft.map.size) * layer.texel_metres, depth);
     // areas of a disk: those of the square of its size
     if (words == 0 && c.soft.light.kind != LIGHT_RECT) frame.scale *= 1.12837917;
     // All that blocks lies above the receiver's plane, and so does what it hides of the light: not a factor of the part up there.
+    hide_nothing();
     const float visible = visible_light(v);
-    visibility = vec4(max(0.0, p.horizon - (1.0 - visible)));
-    if (textured) visibility.rgb = colored_visibility(p, visible);
+    const float lit = max(0.0, p.horizon - (1.0 - visible));
+    return textured ? vec4(colored_visibility(p, visible), lit) : vec4(lit);
 }

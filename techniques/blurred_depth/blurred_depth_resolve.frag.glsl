@@ -5,12 +5,10 @@
 
 #include "shaders/filter_resolve.glsl"
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const LightMapLayer layer = c.filtering.map.layers[at.layer];
     const float behind = 0.5 * (at.t - window_mean(at, 0).x) * (layer.far - layer.near); // metres
     // Luft and Deussen's comparison, or the step that it softens
-    visibility = c.params.compare != 0 ? 1.0 - smoothstep(0.0, c.params.softness, behind) : behind > 0.0 ? 0.0 : 1.0;
+    return c.params.compare != 0 ? 1.0 - smoothstep(0.0, c.params.softness, behind) : behind > 0.0 ? 0.0 : 1.0;
 }

@@ -58,11 +58,9 @@ float clamped_exponentials(FilterPoint at)
     return sum / float(n * n);
 }
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const float mean = mean_exponential(at);
     const bool broken = c.params.fallback == 1 ? mean > mean_of_plane(at) + c.params.threshold : c.params.fallback == 2 && any_behind(at);
-    visibility = min(broken ? clamped_exponentials(at) : mean, 1.0);
+    return min(broken ? clamped_exponentials(at) : mean, 1.0);
 }

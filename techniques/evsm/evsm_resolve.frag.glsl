@@ -6,12 +6,10 @@
 #include "shaders/filter_resolve.glsl"
 #include "techniques/evsm/evsm.glsl"
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const float deviation = 2.0 * c.params.min_deviation; // the centred range is two wide
     const vec4 moments = window_mean(at, 0);
-    visibility = reduce_bleeding(
+    return reduce_bleeding(
         evsm_visibility(moments, at.t, c.params.exponent, c.params.negative_exponent, deviation, c.params.components == 1), c.params.bleed_reduction);
 }

@@ -25,7 +25,7 @@ void describe(Params& p, Fields& fields)
     fields.choice(
         "pattern", p.pattern, {"jittered", "hammersley"}, "How the points lie: one at random in each cell of equal area, or evenly.");
     fields.integer("map_size", p.map_size, {16, 4096}, "texels", "maps: width and height of each depth layer.");
-    fields.choice("fit", p.fit, {"scene", "view"}, "maps: what they cover, the whole scene or the part of it that the view sees.");
+    fields.choice("fit", p.fit, {"uniform", "focused"}, "maps: what they cover, the whole scene or the part of it that the view sees.");
     fields.flag("bilinear", p.bilinear, "maps: each comparison blends a 2 x 2 block instead of taking the nearest texel.");
     fields.real("bias", p.bias, {0, 16}, "texels",
         "maps: a receiver is moved towards the light by the depth that its plane gains over so many texels.");

@@ -37,7 +37,7 @@ gpu::BufferId place_layers(gpu::PassList& passes, const parts::LightMap& map, co
         count.name = "histogram";
         count.program = &passes.device().compute_program("techniques/lvsm/lvsm_histogram.comp");
         count.bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {counts, gpu::Use::update}};
-        count.constants = HistogramConstants{{map.constants.layers[layer], int(layer)}};
+        count.constants = parts::with_layer(HistogramConstants{{map.constants.layers[layer], int(layer)}}, map, layer, 0);
         count.threads = {16 * groups, 16 * groups, 1};
         passes.compute(std::move(count));
     }

@@ -16,7 +16,7 @@ const float tilt_limit = 16.0;
 
 KernelSettings kernel_settings(bool centred)
 {
-    const float cleared = min(tilt_limit * metres_per_texel(layer, point.depth) / max(length(point.slope), 1e-20), 1.0);
+    const float cleared = min(tilt_limit / max(length(point.slope / point.texel), 1e-20), 1.0);
     const vec2 tilt = c.params.tilt * cleared / half_range * abs(point.slope);
     return KernelSettings(1e-6 * c.params.moment_bias, 2.0 * c.params.depth_bias, tilt, centred);
 }

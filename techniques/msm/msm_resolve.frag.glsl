@@ -7,12 +7,10 @@
 #include "shaders/chebyshev.glsl"
 #include "shaders/moments.glsl"
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const vec4 means = window_mean(at, 0);
     const vec4 b = c.params.format == 0 ? means : moments_from_quantised(means);
     const float bias = 1e-6 * (c.params.format == 0 ? c.params.moment_bias : max(c.params.moment_bias, 60.0));
-    visibility = reduce_bleeding(msm_visibility(b, at.t, bias), c.params.bleed_reduction);
+    return reduce_bleeding(msm_visibility(b, at.t, bias), c.params.bleed_reduction);
 }

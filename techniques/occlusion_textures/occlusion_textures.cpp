@@ -115,8 +115,10 @@ gpu::ImageId make_cover(gpu::PassList& passes, gpu::ImageId slices, GroupConstan
 class Method final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        const parts::LightMapSettings settings = parts::soft_map_settings(params.soft);
+        parts::LightMapSettings settings = parts::soft_map_settings(params.soft);
+        settings.fitting = parts::unwarped(settings.fitting);
         const LightMap map = parts::fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
+        if (frame.light_map) *frame.light_map = map;
         ResolveConstants c{};
         c.soft = parts::soft_constants(frame, map, params.soft);
         c.params = params;
@@ -140,7 +142,7 @@ class Method final : public TechniqueWith<Params> {
         const bool sums = params.prefilter == PREFILTER_SUMS;
         const gpu::SpecConstant spec[] = {{0, uint32_t(params.slices)}, {1, uint32_t(params.fusion)}, {2, uint32_t(params.own)},
             {3, uint32_t(params.middle)}, {4, params.prefilter == PREFILTER_MIPS ? 1u : 0u}};
-        parts::resolve_soft(passes, frame,
+        parts::resolve_soft(passes, frame, {{}, map},
             sums ? "techniques/occlusion_textures/occlusion_textures_sums.frag"
                  : "techniques/occlusion_textures/occlusion_textures_means.frag",
             spec, c, {array_of(slices), array_of(filtered, sums ? gpu::Sampler::nearest_clamp : gpu::Sampler::linear_clamp)});

@@ -120,10 +120,6 @@ float unblocked(SoftPoint p)
     return through;
 }
 
-void main()
-{
-    SoftPoint p;
-    if (find_soft_point(p)) visibility = clamp(p.horizon * unblocked(p), 0.0, 1.0);
-}
+float soft_visibility(SoftPoint p) { return clamp(p.horizon * unblocked(p), 0.0, 1.0); }
 
 #endif

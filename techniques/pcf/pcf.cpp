@@ -8,6 +8,7 @@
 #include "shadow/technique.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace gnomon::techniques::pcf {
 
@@ -92,7 +93,7 @@ private:
                 gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 // any image where the shader does not look
                 {noise ? passes.import(noise_) : frame.gbuffer.depth, gpu::Use::sample}},
-            .constants = c,
+            .constants = parts::with_map(c, map, offsetof(ResolveConstants, map)),
             .colors = {{target}}});
         if (c.groups == 1) return;
         passes.fullscreen({.name = "gather",

@@ -65,24 +65,26 @@ float disk_filter(int layer_index, ReceiverPlane plane, float radius)
     return sum / float(count);
 }
 
-void main()
+float lit_in_layer(Receiver r, int index)
 {
-    Receiver r;
-    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
-    const int index = select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world);
     const LightMapLayer layer = c.map.layers[index];
     MapPoint m = project(layer, r.p_world);
-    visibility = 1.0;
-    if (!m.inside) return;
+    if (!m.inside) return 1.0;
     m.depth -= c.params.bias_constant;
 
     int n = small_kernel > 0 ? small_kernel : c.kernel;
     if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, m.uv * c.map.size))), n, c.largest);
     const ReceiverPlane plane = make_plane(layer, r, m, 0.5 * float(n) + 2.0);
-    if (form == PCF_POISSON || form == PCF_VOGEL) {
-        visibility = disk_filter(index, plane, 0.5 * float(n));
-        return;
-    }
+    if (form == PCF_POISSON || form == PCF_VOGEL) return disk_filter(index, plane, 0.5 * float(n));
     const int reconstruct = form == PCF_BICUBIC ? RECONSTRUCT_BICUBIC : bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST;
-    visibility = separable_filter(map_image, index, plane, n, form == PCF_GAUSSIAN, reconstruct, bias == PCF_BIAS_CONE, adaptive);
+    return separable_filter(map_image, index, plane, n, form == PCF_GAUSSIAN, reconstruct, bias == PCF_BIAS_CONE, adaptive);
+}
+
+void main()
+{
+    Receiver r;
+    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
+    const Layers layers = select_layers(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, c.map.bands, r.p_world);
+    visibility = 0.0;
+    for (int i = 0; i < count_of(layers); ++i) visibility += share_of(layers, i) * lit_in_layer(r, layers.first + i);
 }

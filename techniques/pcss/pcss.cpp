@@ -68,7 +68,7 @@ private:
             {6, uint32_t(params.filtering)}};
         const gpu::ImageId sums = make_sums(passes, frame, soft.map, c);
         // any image where the shader does not look
-        parts::resolve_soft(passes, frame, "techniques/pcss/pcss_resolve.frag", spec, c,
+        parts::resolve_soft(passes, frame, soft.map, "techniques/pcss/pcss_resolve.frag", spec, c,
             {gpu::Binding(soft.map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 {noise ? passes.import(noise_) : frame.gbuffer.depth, gpu::Use::sample},
                 gpu::Binding(pyramid ? parts::build_min_max_pyramid(passes, soft.map.depth) : soft.map.depth, gpu::Use::sample)

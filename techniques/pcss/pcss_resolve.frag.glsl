@@ -37,7 +37,7 @@ ReceiverPlane make_plane(LightMapLayer layer, SoftPoint p, MapPoint m, float rad
     ReceiverPlane plane = coned ? cone_plane(layer, size, depth_step, m, p_world, n, c.params.bias_cone, slope_limit)
                                 : receiver_plane(layer, size, depth_step, m, p_world, n, radius, slope_limit);
     const vec2 tangent = abs(receiver_tangent(layer, size, m, p_world, n, slope_limit));
-    plane.z += c.soft.params.bias * (tangent.x + tangent.y) * stored_per_metre(layer, m.depth) * metres_per_texel(layer, m.depth);
+    plane.z += c.soft.params.bias * dot(tangent, m.texel) * stored_per_metre(layer, m.depth);
     return plane;
 }
 
@@ -81,27 +81,22 @@ float sums_window(LightMapLayer layer, SoftPoint p, vec2 half_size)
     return chebyshev(m, centred_from_depth(layer, p.depth), min_deviation * min_deviation);
 }
 
-void main()
+float soft_visibility(SoftPoint p)
 {
-    SoftPoint p;
-    if (!find_soft_point(p)) return;
     const LightMapLayer layer = c.soft.map.layers[p.layer];
     const MapPoint m = project(layer, p.receiver.p_world);
     if (all(equal(p.light, vec2(0.0)))) {
         const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);
-        visibility = p.horizon * compare_tap(map_image, p.layer, make_plane(layer, p, m, 1.0), vec2(0.0), texel, false, coned);
-        return;
+        return p.horizon * compare_tap(map_image, p.layer, make_plane(layer, p, m, 1.0), vec2(0.0), texel, false, coned);
     }
     const ReceiverPlane plane = make_plane(layer, p, m, 0.5 * float(c.params.cap) + 1.0);
     float whole;
     const vec2 searched = search_half_size(layer, p, m.depth, whole, plane);
-    visibility = p.horizon * max(whole, 0.0);
-    if (whole >= 0.0) return;
+    if (whole >= 0.0) return p.horizon * whole;
     const vec2 found = search_window(layer, p.layer, plane, searched);
-    visibility = p.horizon;
-    if (found.y <= 0.0) return;
+    if (found.y <= 0.0) return p.horizon;
     const vec2 half_size = clamp(window_half_width(layer, p.light, m.depth, found.x / found.y), vec2(0.5 * c.params.least), vec2(0.5 * float(c.params.cap)));
     float lit = shortcut == PCSS_SHORTCUT_NONE ? -1.0 : whole_window(window_depths(p.layer, plane.at, half_size), plane, half_size);
     if (lit < 0.0) lit = filtering == PCSS_FILTER_SUMS ? sums_window(layer, p, half_size) : filter_window(p.layer, plane, half_size);
-    visibility = p.horizon * lit;
+    return p.horizon * lit;
 }

@@ -9,10 +9,8 @@
 
 layout(set = 0, binding = 4) uniform sampler2DArray range_image;
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const vec2 z = window_range(range_image, at);
-    visibility = reduce_bleeding(power_visibility(window_mean(at, 0).x, z.x, z.y, at.t, c.params.inset), c.params.bleed_reduction);
+    return reduce_bleeding(power_visibility(window_mean(at, 0).x, z.x, z.y, at.t, c.params.inset), c.params.bleed_reduction);
 }

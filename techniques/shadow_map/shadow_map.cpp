@@ -6,6 +6,8 @@
 #include "shadow/parts/light_map.h"
 #include "shadow/technique.h"
 
+#include <cstddef>
+
 namespace gnomon::techniques::shadow_map {
 
 namespace {
@@ -24,6 +26,10 @@ void describe(Params& p, Fields& fields)
     fields.real("normal_offset", p.normal_offset, {0, 16}, "texels",
         "Distance by which a receiver is moved along its normal, times the sine of the light's angle.");
     fields.choice("cull", p.cull, {"none", "back", "front"}, "Which faces of the casters are left out of the map.");
+    fields.choice("culling", p.culling, {"none", "frustum", "receivers"},
+        "Which instances are not drawn: none; those outside of a layer; or, under a sun, all that lie between it and no receiver that is "
+        "seen. "
+        "Pictures are the same.");
 }
 
 class ShadowMap final : public TechniqueWith<Params> {
@@ -45,6 +51,8 @@ private:
                 .format = parts::DepthFormat(params.depth),
                 .slope_bias = params.bias_slope * 2.0f * radius,
                 .cull = cull[params.cull],
+                .culling = parts::Culling(params.culling),
+                .offset_texels = params.normal_offset,
                 .guard_texels = radius + 1.0f});
         const gpu::SpecConstant pcf[] = {{0, uint32_t(params.pcf)}};
         passes.fullscreen({.name = "resolve",
@@ -52,8 +60,9 @@ private:
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest)
                     .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
-                map.constants, params},
+            .constants = parts::with_map(ResolveConstants{view_constants(frame.view, frame.index),
+                                             light_constants(frame.light, frame.resources.bounds()), map.constants, params},
+                map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
 

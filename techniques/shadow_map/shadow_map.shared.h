@@ -16,6 +16,7 @@ struct Params {
     float bias_slope DEFAULT(0.75f);
     float normal_offset DEFAULT(0.0f);
     int cull DEFAULT(0);
+    int culling DEFAULT(1);
 };
 
 struct ResolveConstants {

@@ -6,10 +6,8 @@
 #include "shaders/chebyshev.glsl"
 #include "shaders/filter_resolve.glsl"
 
-void main()
+float filtered_visibility(FilterPoint at)
 {
-    FilterPoint at;
-    if (!find_filter_point(at)) return;
     const float deviation = 2.0 * c.params.min_deviation; // the centred range is two wide
-    visibility = reduce_bleeding(chebyshev(window_mean(at, 0).xy, at.t, deviation * deviation), c.params.bleed_reduction);
+    return reduce_bleeding(chebyshev(window_mean(at, 0).xy, at.t, deviation * deviation), c.params.bleed_reduction);
 }

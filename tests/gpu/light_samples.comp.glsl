@@ -19,6 +19,7 @@ void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
+    hide_nothing();
     for (int k = 0; k < 3; ++k) hide_rectangle(cases[i].rectangles[k].xy, cases[i].rectangles[k].zw);
     for (int k = 0; k < 8; ++k) results[i].mask[k] = hidden_samples[k];
     results[i].area = hidden_area;

@@ -239,7 +239,7 @@ TEST_F(PercentageCloser, ReceiverPlaneFollowsTheSurfaceOverTheKernel)
         for (int i = 0; i < 900; ++i) {
             const scene::Light light = scene::parse_light(text, {}, bounds);
             const shaders::LightMap map
-                = shadow::parts::fit_light_map({}, bounds, view, light, {.fitting = {.fit = int(shadow::parts::Fit::scene)}});
+                = shadow::parts::fit_light_map({}, bounds, view, light, {.fitting = {.fit = int(shadow::parts::Fit::uniform)}});
             const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
             const shaders::LightMapLayer& layer = map.layers[tests::select_layer(map, p)];
             if (!tests::project(layer, p).inside) continue;

@@ -24,7 +24,7 @@ protected:
     {
         const scene::View view = scene::make_view({"", {4, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.4f}, {320, 200}, bounds);
         return shadow::parts::fit_light_map(
-            {}, bounds, view, light, {.size = 512, .fitting = {.fit = int(shadow::parts::Fit::scene)}, .guard_texels = 65});
+            {}, bounds, view, light, {.size = 512, .fitting = {.fit = int(shadow::parts::Fit::uniform)}, .guard_texels = 65});
     }
 
     static std::vector<shaders::SoftResult> run(const std::vector<shaders::SoftCase>& cases)

@@ -26,13 +26,14 @@ struct MapCase {
 
 struct MapResult {
     int layer; ///< select_layer
+    float next; ///< select_layers
     vec2 uv; ///< project
     float z, depth;
     uint inside;
     float stored; ///< stored_from_depth of the depth
     float reference; ///< reference_depth of the depth
     float linear; ///< depth_from_stored of the stored depth
-    float metres; ///< metres_per_texel at the depth
+    vec2 texel; ///< project
 };
 
 struct SoftCase {

@@ -42,7 +42,7 @@ TEST(CommandLine, UnknownNamesListTheNearOnes)
         {{"bless", "shadow_mop", "--because", "x"}, 1, {"unknown technique 'shadow_mop'", "'shadow_map'"}},
         {{"render", "balls", "--shadow_map.map_sise", "64"}, 1, {"unknown parameter 'map_sise'", "'map_size'"}},
         {{"compare", "balls", "--techniques", "shadow_map:fitt=view"}, 1, {"unknown parameter 'fitt'", "'fit'"}},
-        {{"render", "balls", "--shadow_map.fit", "vieww"}, 1, {"'fit'", "'view'"}},
+        {{"render", "balls", "--shadow_map.fit", "focusedd"}, 1, {"'fit'", "'focused'"}},
         {{"render", "bals"}, 1, {"unknown scene 'bals'", "'balls'"}},
         {{"truth", "citadell"}, 1, {"unknown scene 'citadell'", "'citadel'"}},
         {{"render", "balls", "--camera", "fitt"}, 1, {"'fitt'", "'fit'"}},

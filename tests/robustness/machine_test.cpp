@@ -81,6 +81,9 @@ TEST(Machine, JsonOutputsParse)
 
     const Json bench = parsed({"bench", "plane", "--size", "16x12", "--repeats", "2", "--json"}, scratch);
     EXPECT_TRUE(bench.is_object());
+    const Json& row = bench.at("rows").at(0);
+    EXPECT_GT(row.at("reference_ratio").get<double>(), 0.0);
+    EXPECT_LT(row.at("dynamic_ratio").get<double>(), row.at("ratio").get<double>()) << "the build of the tree counts as well";
 }
 
 } // namespace

@@ -93,7 +93,7 @@ TEST(Experiment, GroupsAreMeans)
             {"technique", cell->choice.info->id}, {"technique_ms", ms}, {"bytes", 2097152},
             {"passes",
                 {{{"name", std::string(cell->choice.info->id) + "/resolve"}, {"ms", 10 * ms}},
-                    {{"name", std::string(cell->choice.info->id) + "/sum rows"}, {"ms", ms}},
+                    {{"name", std::string(cell->choice.info->id) + "/sum rows"}, {"ms", ms}, {"count", 3}},
                     {{"name", std::string(cell->choice.info->id) + "/sum columns"}, {"ms", 2 * ms}}}},
             {"metrics", {{"mae", nullptr}, {"rms", ms}}}};
         results.add(line.dump(), "file", ++number);
@@ -110,6 +110,7 @@ TEST(Experiment, GroupsAreMeans)
     EXPECT_EQ(groups[0].mean("pass:sum*"), 7.5);
     EXPECT_EQ(groups[0].mean("pass:sum rows+resolve"), 27.5);
     EXPECT_FALSE(groups[0].mean("pass:sum"));
+    EXPECT_EQ(groups[0].mean("passes"), 5.0);
     EXPECT_EQ(groups[0].mean("mib"), 2.0);
     EXPECT_FALSE(groups[0].mean("mae")) << "what was not finite is none";
     EXPECT_EQ(grouped(rows, {"technique"}, {{"kernel", {"3"}}})[0].mean("ms"), 4.0);

@@ -30,6 +30,43 @@ TEST(Cascades, EndsAreOfOneLengthOrOfOneRatio)
     }
 }
 
+TEST(Cascades, OneRatioCountsFromWhereThereIsSomethingToSee)
+{
+    const std::vector<float> ends = cascade_ends(1, 160, 4, 1, 10);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(ends[size_t(i)], 10 * std::pow(2.0, i + 1), 1e-3);
+    EXPECT_EQ(cascade_ends(1, 160, 4, 1, 0.5f), cascade_ends(1, 160, 4, 1)) << "nearer than the near plane";
+    EXPECT_EQ(cascade_ends(1, 160, 4, 0, 10), cascade_ends(1, 160, 4, 0)) << "even ones";
+    for (const float end : cascade_ends(1, 160, 4, 0.5f, 1000)) EXPECT_TRUE(end > 1 && end <= 160);
+}
+
+// A filter of the guard's radius at any receiver reads its own layer, in the band before the layer too.
+TEST(Cascades, LayersHoldTheirBandAndTheFiltersRadius)
+{
+    const scene::View view = scene::make_view({"", {0, 2, 19}, {0, 1, 0}, {0, 1, 0}, 0.8f}, picture, bounds);
+    const float guard = 12;
+    for (const int stable : {0, 1}) {
+        const shaders::LightMap map = fit_light_map({}, bounds, view, scene::parse_light("sun,elevation=40,azimuth=70", {}, bounds),
+            {.size = 256, .fitting = {.fit = int(Fit::cascades), .stable = stable, .blend = 0.4f}, .guard_texels = guard + 1});
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+        int in_bands = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const vec3 p = bounds.min + (bounds.max - bounds.min) * vec3(unit(random), unit(random), unit(random));
+            const vec4 clip = view.clip_from_world * vec4(p, 1);
+            if (clip.w <= view.near || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) continue;
+            const int layer = tests::select_layer(map, p);
+            const double next = tests::next_share(map, p);
+            in_bands += next > 0.0;
+            for (int k = 0; k < (next > 0.0 ? 2 : 1); ++k) {
+                const glm::dvec2 texel = tests::project(map.layers[layer + k], p).uv * 256.0;
+                EXPECT_GE(std::min(texel.x, texel.y), double(guard) - 0.01) << stable << layer << k;
+                EXPECT_LE(std::max(texel.x, texel.y), 256.0 - double(guard) + 0.01) << stable << layer << k;
+            }
+        }
+        EXPECT_GT(in_bands, 200);
+    }
+}
+
 TEST(Cascades, NearerLayersHaveSmallerTexels)
 {
     const scene::View view = scene::make_view({"", {0, 2, 19}, {0, 1, 0}, {0, 1, 0}, 0.8f}, picture, bounds);

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace gnomon::shadow::parts {
@@ -112,9 +113,10 @@ TEST_P(LightMapFitScene, VisibleReceiversAndAllCastersLieInASunsMap)
         for (const char* sun : suns) {
             const std::string what = std::string(GetParam()) + " " + camera.name + " " + sun;
             const scene::Light light = scene::parse_light(sun, {}, bounds);
-            const shaders::LightMap of_view = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::view)}});
+            const shaders::LightMap of_view
+                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::focused)}});
             const shaders::LightMap of_scene
-                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::scene)}});
+                = fit_light_map(scene, bounds, view, light, {.size = 512, .fitting = {.fit = int(Fit::uniform)}});
             expect_held(of_view, seen, what + ", fit=view");
             expect_held(of_scene, vertices, what + ", fit=scene");
             expect_consistent(of_view, seen);
@@ -203,6 +205,62 @@ TEST(LightMapFit, CubeFacesCoverAllDirectionsWithTheirRim)
             nearest_rim = std::min({nearest_rim, m.uv.x, m.uv.y, 1.0 - m.uv.x, 1.0 - m.uv.y});
         }
         EXPECT_NEAR(nearest_rim * 64.0, double(guard), 0.1);
+    }
+}
+
+TEST(LightMapFit, TetrahedronFacesCoverAllDirectionsWithTheirRim)
+{
+    const scene::Scene scene = balls();
+    const scene::View view = scene::make_view(scene::fit_camera(scene.bounds()), picture, scene.bounds());
+    scene::Light light;
+    light.shape = scene::PointLight{{0.5f, 2, -0.25f}, 0.0f};
+    for (const float guard : {0.0f, 1.5f, 9.0f}) {
+        const shaders::LightMap map = fit_light_map(scene, scene.bounds(), view, light,
+            {.size = 64, .fitting = {.point_layout = int(PointLayout::tetrahedron)}, .guard_texels = guard});
+        ASSERT_EQ(map.layer_count, 4u);
+        std::mt19937 random(7);
+        std::normal_distribution<float> normal;
+        glm::dvec2 least(1.0), most(0.0);
+        double shallowest = 1.0;
+        std::array<int, 4> seen{};
+        for (int i = 0; i < 200000; ++i) {
+            const vec3 d = glm::normalize(vec3(normal(random), normal(random), normal(random)));
+            const int face = select_layer(map, map.centre + 2.0f * d);
+            const tests::MapPoint m = project(map.layers[face], map.centre + 2.0f * d);
+            ASSERT_TRUE(m.inside);
+            ++seen[size_t(face)];
+            least = glm::min(least, m.uv), most = glm::max(most, m.uv), shallowest = std::min(shallowest, 0.5 * m.depth);
+        }
+        EXPECT_NEAR(shallowest, 1.0 / 3.0, 0.01); // 70.5 degrees from a face's axis
+        for (const int n : seen) EXPECT_NEAR(n, 50000, 1000);
+        // as tight as can be: the triangles touch all four sides of the square, less the guard
+        for (const double rim : {least.x, least.y, 1.0 - most.x, 1.0 - most.y}) {
+            EXPECT_GE(rim * 64.0, double(guard) - 0.01);
+            EXPECT_LE(rim * 64.0, double(guard) + 1.0);
+        }
+    }
+}
+
+TEST(LightMapFit, ATetrahedronsTexelsAreAsWideAsTheySayAndItsDepthsAgree)
+{
+    const scene::Scene scene = balls();
+    const scene::View view = scene::make_view(scene::fit_camera(scene.bounds()), picture, scene.bounds());
+    for (const char* text : {"point,position=0.5/2/-0.25,radius=0", "spot,position=0/3/0,target=1/0/0,cone=150,radius=0"}) {
+        const shaders::LightMap map = fit_light_map(scene, scene.bounds(), view, scene::parse_light(text, {}, scene.bounds()),
+            {.size = 256, .fitting = {.point_layout = int(PointLayout::tetrahedron)}});
+        ASSERT_EQ(map.layout_kind, uint32_t(LIGHT_MAP_TETRAHEDRON));
+        expect_consistent(map, all_vertices(scene));
+        for (int face = 0; face < 4; ++face) {
+            const shaders::LightMapLayer& layer = map.layers[face];
+            const vec3 axis(layer.depth_plane), side = glm::normalize(glm::cross(axis, vec3(0, 1, 0)));
+            for (const vec3 across : {side, glm::cross(axis, side)}) {
+                const vec3 p = map.centre + 3.0f * axis;
+                const glm::dvec2 step = project(layer, p + 0.1f * across).uv - project(layer, p).uv;
+                EXPECT_NEAR(glm::length(step) * 256.0 * double(layer.texel_metres) * 3.0, 0.1, 1e-4);
+            }
+            // 2.37 times those of a cube's faces, less the guard
+            EXPECT_NEAR(double(layer.texel_metres) * (256.0 - 3.0), 4.732, 0.001);
+        }
     }
 }
 
@@ -298,8 +356,8 @@ TEST(LightMapFit, OddViewsKeepTheirReceivers)
         scene::Light light;
         light.shape = scene::DirectionalLight{odd.sun, 0.0f};
         for (const int size : {16, 1024}) {
-            for (const shaders::FitParams& fitting : {shaders::FitParams{.fit = int(Fit::view)}, {.fit = int(Fit::cascades), .stable = 0},
-                     {.fit = int(Fit::cascades), .cascades = 8, .split = 1, .stable = 1}}) {
+            for (const shaders::FitParams& fitting : {shaders::FitParams{.fit = int(Fit::focused)},
+                     {.fit = int(Fit::cascades), .stable = 0}, {.fit = int(Fit::cascades), .cascades = 8, .split = 1, .stable = 1}}) {
                 const shaders::LightMap map = fit_light_map(scene, bounds, view, light, {.size = size, .fitting = fitting});
                 expect_consistent(map, {});
                 expect_held(map, visible_points(scene, view), odd.name);
@@ -314,7 +372,7 @@ TEST(LightMapFit, AViewThatSeesNothingStillHasAMap)
     const Bounds bounds = scene.bounds();
     const scene::View away = scene::make_view({"", {0, 3, 80}, {0, 3, 160}}, picture, bounds);
     EXPECT_TRUE(visible_part(away, bounds).empty());
-    for (const Fit fit : {Fit::view, Fit::cascades})
+    for (const Fit fit : {Fit::focused, Fit::cascades})
         for (const int stable : {0, 1})
             expect_consistent(
                 fit_light_map(scene, bounds, away, scene::parse_light("sun", {}, bounds), {.fitting = {.fit = int(fit), .stable = stable}}),
@@ -327,7 +385,7 @@ TEST(LightMapFit, FlatAndPointLikeScenesHaveAMap)
     for (const Bounds& bounds : {Bounds{low, high}, Bounds{low, low}, Bounds{{0, 0, 0}, {0, 5, 0}}})
         for (const char* text : {"sun,elevation=90", "sun,elevation=1", "point,position=0/3/0", "spot,position=0/3/0,target=0/0/0"}) {
             const scene::View view = scene::make_view({"", {0, 4, 6}, {0, 1, 0}}, picture, bounds);
-            for (const Fit fit : {Fit::view, Fit::cascades})
+            for (const Fit fit : {Fit::focused, Fit::cascades})
                 expect_consistent(
                     fit_light_map({}, bounds, view, scene::parse_light(text, {}, bounds), {.fitting = {.fit = int(fit)}}), {});
         }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shadow/parts/clip.h"
 
-#include "scene/light.h"
-
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace gnomon::shadow::parts {
 
@@ -89,6 +88,21 @@ std::vector<vec3> visible_part(const scene::View& view, const Bounds& box, float
     Planes planes = frustum_planes(view.clip_from_world);
     planes.push_back(vec4(forward, -eye - from));
     planes.push_back(vec4(-forward, eye + to));
+    return vertices_within(planes, box);
+}
+
+std::vector<vec3> visible_part(const scene::View& view, const Bounds& box, const scene::SpotLight& spot, float near)
+{
+    Planes planes = frustum_planes(view.clip_from_world);
+    const mat3 basis = scene::basis_about(spot.direction);
+    const auto add = [&](vec3 normal, vec3 point) { planes.push_back(vec4(normal, -glm::dot(normal, point))); };
+    add(spot.direction, spot.position + near * spot.direction);
+    constexpr int sides = 16; // of a pyramid about the cone, wider than it by 2 % at its edges
+    for (int i = 0; i < sides; ++i) {
+        const float a = 2.0f * pi * float(i) / float(sides);
+        const vec3 outward = std::cos(a) * basis[0] + std::sin(a) * basis[1];
+        add(std::sin(spot.outer_angle) * spot.direction - std::cos(spot.outer_angle) * outward, spot.position);
+    }
     return vertices_within(planes, box);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/light.h"
 #include "scene/math.h"
 #include "scene/view.h"
 #include "shadow/scene_gpu.h"
@@ -15,6 +16,9 @@ std::vector<vec3> visible_part(const scene::View&, const Bounds& box);
 
 /// The same between two distances from the eye along the view's axis.
 std::vector<vec3> visible_part(const scene::View&, const Bounds& box, float from, float to);
+
+/// The same, of what a spot lights from `near` metres on along its axis.
+std::vector<vec3> visible_part(const scene::View&, const Bounds& box, const scene::SpotLight&, float near);
 
 /// The axis along which a view looks, unit.
 vec3 forward_of(const scene::View&);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace gnomon::shadow::parts {
 
@@ -37,7 +38,8 @@ gpu::ImageId draw_values(gpu::PassList& passes, const LightMap& map, int prefilt
         out.program = &passes.device().raster_program("shaders/fullscreen.vert", pass.shader);
         out.bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
         out.bindings.insert(out.bindings.end(), pass.more.begin(), pass.more.end());
-        out.constants = pass.constants({map.constants.layers[layer], int(layer), prefilter});
+        out.constants = with_layer(
+            pass.constants({map.constants.layers[layer], int(layer), prefilter}), map, layer, offsetof(shaders::FilterValues, layer));
         for (int group = 0; group < pass.groups; ++group) {
             gpu::ColorTarget target{values, gpu::Load::discard};
             target.layer = layer * uint32_t(pass.groups) + uint32_t(group);
@@ -115,7 +117,7 @@ void resolve_filtered(gpu::PassList& passes, const Frame& frame, const FilteredM
         gpu::Binding(map.means, gpu::Use::sample, gpu::Sampler::linear_clamp).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
         gpu::Binding(map.sums, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
     pass.bindings.insert(pass.bindings.end(), more.begin(), more.end());
-    pass.constants = std::move(constants);
+    pass.constants = with_map(std::move(constants), map.map, offsetof(shaders::FilterResolve, map));
     pass.colors = {{frame.output}};
     passes.fullscreen(std::move(pass));
 }

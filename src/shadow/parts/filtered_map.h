@@ -27,7 +27,7 @@ struct ValuesPass {
     int outputs = 1; ///< that the shader declares, at most 8
     bool with_mips = false; ///< all of them, the others to be filled (draw_values)
     std::vector<gpu::Binding> more{}; ///< of the shader, after its depth map
-    std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer
+    std::function<gpu::Constants(const shaders::FilterValues&)> constants; ///< of the shader, for one layer: they begin with its argument
     gpu::ImageId (*average)(gpu::PassList&, gpu::ImageId values, int width, bool with_mips)
         = nullptr; ///< instead of the mean that FilterParams asks for
 };
@@ -53,7 +53,8 @@ FilteredMap draw_filtered_map(gpu::PassList&, const Frame&, const shaders::Filte
 LightMap draw_map_to_filter(gpu::PassList&, const Frame&, const shaders::FilterParams&);
 FilteredMap filter_map(gpu::PassList&, const Frame&, const LightMap&, const shaders::FilterParams&, const ValuesPass&);
 
-/// The full-screen pass that writes frame.output. Bindings 0 to 3 are those of shaders/filter_resolve.glsl; `more` follow.
+/// The full-screen pass that writes frame.output. Bindings 0 to 3 are those of shaders/filter_resolve.glsl; `more` follow. The constants
+/// begin with map.constants.
 void resolve_filtered(
     gpu::PassList&, const Frame&, const FilteredMap&, std::string_view shader, gpu::Constants, std::vector<gpu::Binding> more = {});
 

@@ -63,23 +63,27 @@ shaders::LightMapLayer orthographic_layer(const mat4& axes, vec2 centre, float e
     layer.map_from_world = uv_from_clip * clip * axes;
     layer.depth_plane = row(axes, 2);
     layer.texel_metres = extent / float(size);
+    layer.texel_uv = 1.0f / float(size);
     return layer;
 }
 
 namespace {
 
-/// One perspective layer: reversed depth with both planes fitted to the scene. `tangent`: of the half angle.
-shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float near, float far, int size)
+/// One perspective layer: reversed depth with both planes fitted to the scene. `tangent`: of the half angle; `centre`: of the square that
+/// it sees one metre before the light.
+shaders::LightMapLayer perspective_layer(const mat4& axes, float tangent, float near, float far, int size, vec2 centre = vec2(0))
 {
     shaders::LightMapLayer layer{};
     layer.perspective = 1, layer.near = near, layer.far = far;
     mat4 clip(0);
     clip[0][0] = clip[1][1] = 1.0f / tangent;
+    clip[2][0] = -centre.x / tangent, clip[2][1] = -centre.y / tangent;
     clip[2][2] = -near / (far - near), clip[3][2] = near * far / (far - near);
     clip[2][3] = 1.0f;
     layer.map_from_world = uv_from_clip * clip * axes;
     layer.depth_plane = row(axes, 2);
     layer.texel_metres = 2.0f * tangent / float(size);
+    layer.texel_uv = 1.0f / float(size);
     return layer;
 }
 
@@ -96,6 +100,9 @@ void depth_range(const Bounds& bounds, vec3 position, float cosine, float& near,
 
 /// Of a cube's corner, less something for the rim (1 / sqrt(3) without), and of spots of up to 60 degrees.
 constexpr float cube_cosine = 0.5f;
+
+/// Of a square pyramid's corner, with something to spare.
+float corner_cosine(float tangent) { return 0.99f / std::sqrt(1.0f + 2.0f * tangent * tangent); }
 
 /// A face of 90 degrees plus a rim of guard texels: tan = 1 on (size - 2 guard) texels.
 float face_tangent(const LightMapSettings& settings)
@@ -116,6 +123,40 @@ void fit_cube(shaders::LightMap& map, const Bounds& bounds, vec3 position, const
     map.layout_kind = LIGHT_MAP_CUBE, map.layer_count = 6, map.centre = position, map.axes = axes;
     for (int face = 0; face < 6; ++face)
         map.layers[face] = perspective_layer(face_axes(position, axes, face), face_tangent(settings), near, far, settings.size);
+}
+
+/// Four faces of a tetrahedron about the light, the fewest layers that see all around (Fortes 2000). One metre before the light a face is
+/// an equilateral triangle with an inscribed circle of radius sqrt(2) and sides of 2 sqrt(6). Upright it takes a square of its side; turned
+/// by 15 degrees, one corner in the square's and the sides from it symmetric to the diagonal, one of cos(15 degrees) = 0.966 of that, the
+/// smallest. The axis then lies 2 m from both sides at that corner, off the square's centre.
+void fit_tetrahedron(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
+{
+    const float side = 2.0f * std::sqrt(6.0f) * std::cos(pi / 12.0f);
+    // the corners of the triangle are at a cosine of 1 / 3, those of the square at 1 / 4, and the guard is beyond
+    float near, far;
+    depth_range(bounds, position, 0.2f, near, far);
+    constexpr vec3 faces[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    map.layout_kind = LIGHT_MAP_TETRAHEDRON, map.layer_count = 4, map.centre = position, map.axes = mat3(1);
+    for (size_t face = 0; face < 4; ++face) {
+        const vec3 z = glm::normalize(faces[face]), next = glm::normalize(faces[(face + 1) % 4]);
+        // a corner lies opposite to another face's axis
+        const vec3 e = glm::normalize(next - glm::dot(next, z) * z), f = glm::cross(e, z);
+        const vec3 x = glm::normalize(e - f), y = glm::normalize(e + f);
+        mat4 axes(1);
+        for (int c = 0; c < 3; ++c) axes[c] = vec4(x[c], y[c], z[c], 0);
+        axes[3] = vec4(-glm::dot(x, position), -glm::dot(y, position), -glm::dot(z, position), 1);
+        map.layers[face]
+            = perspective_layer(axes, 0.5f * side * face_tangent(settings), near, far, settings.size, vec2(0.5f * side - 2.0f));
+    }
+}
+
+/// All around a light: `fitting.point_layout` in the world's axes.
+void fit_point(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
+{
+    if (PointLayout(settings.fitting.point_layout) == PointLayout::tetrahedron)
+        fit_tetrahedron(map, bounds, position, settings);
+    else
+        fit_cube(map, bounds, position, mat3(1), settings);
 }
 
 /// Whether all points lie behind a layer's eye or outside of one of the sides of its pyramid of 90 degrees.
@@ -175,7 +216,7 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
     const mat4 axes = centred_axes(position, receivers, tangent);
     if (tangent > 0.0f && tangent <= widest) {
         tangent = std::max(tangent, 1e-4f) * rim_factor(settings);
-        depth_range(casters, position, 0.99f / std::sqrt(1.0f + 2.0f * tangent * tangent), near, far);
+        depth_range(casters, position, corner_cosine(tangent), near, far);
         return {{perspective_layer(axes, tangent, near, far, settings.size)}, {-1}};
     }
     depth_range(casters, position, cube_cosine, near, far);
@@ -188,31 +229,74 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
     return fit;
 }
 
+namespace {
+
+/// The one layer of `map`, focused, as its fit wants it.
+void warp(shaders::LightMap& map, const scene::View& view, const std::vector<vec3>& receivers, const LightMapSettings& settings)
+{
+    const Fit fit = Fit(settings.fitting.fit);
+    if (fit == Fit::uniform || fit == Fit::focused) return;
+    const auto layer = warped_layer(map.layers[0], view, receivers, settings);
+    if (layer)
+        map.layers[0] = *layer;
+    else
+        map.fit_used = int(Fit::focused);
+}
+
+void fit_sun(shaders::LightMap& map, const Bounds& bounds, const scene::View& view, vec3 direction, const LightMapSettings& settings)
+{
+    const Fit fit = Fit(settings.fitting.fit);
+    if (fit == Fit::cascades || fit == Fit::cascades_warped || fit == Fit::sdsm) {
+        fit_cascades(map, bounds, view, direction, settings);
+        return;
+    }
+    const std::vector<vec3> casters = corners(bounds);
+    std::vector<vec3> receivers;
+    if (fit != Fit::uniform) receivers = visible_part(view, bounds);
+    map.layer_count = 1;
+    map.layers[0] = fit_parallel_layer(direction, receivers.empty() ? casters : receivers, casters, settings);
+    warp(map, view, receivers, settings);
+}
+
+void fit_spot(
+    shaders::LightMap& map, const Bounds& bounds, const scene::View& view, const scene::SpotLight& spot, const LightMapSettings& settings)
+{
+    float near, far;
+    depth_range(bounds, spot.position, cube_cosine, near, far);
+    mat4 axes = light_axes(spot.position, spot.direction, vec3(0, 1, 0));
+    float tangent = std::tan(spot.outer_angle);
+    std::vector<vec3> receivers;
+    if (Fit(settings.fitting.fit) != Fit::uniform) receivers = visible_part(view, bounds, spot, near * std::cos(spot.outer_angle));
+    if (!receivers.empty()) { // turned to what is seen, where that is less than the cone
+        float seen;
+        const mat4 turned = centred_axes(spot.position, receivers, seen);
+        if (seen > 0.0f && seen < tangent) {
+            axes = turned, tangent = std::max(seen, 1e-4f);
+            depth_range(bounds, spot.position, corner_cosine(tangent * rim_factor(settings)), near, far);
+        }
+    }
+    map.layer_count = 1, map.centre = spot.position;
+    map.layers[0] = perspective_layer(axes, tangent * rim_factor(settings), near, far, settings.size);
+    warp(map, view, receivers, settings);
+}
+
+} // namespace
+
 shaders::LightMap fit_light_map(
     const scene::Scene&, const Bounds& bounds, const scene::View& view, const scene::Light& light, const LightMapSettings& settings)
 {
     shaders::LightMap map{};
     map.size = float(settings.size);
+    map.fit_used = settings.fitting.fit;
     map.depth_step = settings.format == DepthFormat::d16 ? 1.0f / 65535.0f : 0.0f;
     if (const auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
-        if (Fit(settings.fitting.fit) == Fit::cascades) {
-            fit_cascades(map, bounds, view, sun->direction, settings);
-            return map;
-        }
-        const std::vector<vec3> casters = corners(bounds);
-        const std::vector<vec3> seen = Fit(settings.fitting.fit) == Fit::view ? visible_part(view, bounds) : casters;
-        map.layer_count = 1;
-        map.layers[0] = fit_parallel_layer(sun->direction, seen.empty() ? casters : seen, casters, settings);
+        fit_sun(map, bounds, view, sun->direction, settings);
     } else if (const auto* spot = std::get_if<scene::SpotLight>(&light.shape); spot && spot->outer_angle <= pi / 3.0f) {
-        float near, far;
-        depth_range(bounds, spot->position, cube_cosine, near, far);
-        map.layer_count = 1, map.centre = spot->position;
-        map.layers[0] = perspective_layer(light_axes(spot->position, spot->direction, vec3(0, 1, 0)),
-            std::tan(spot->outer_angle) * rim_factor(settings), near, far, settings.size);
+        fit_spot(map, bounds, view, *spot, settings);
     } else if (spot) {
-        fit_cube(map, bounds, spot->position, mat3(1), settings);
+        fit_point(map, bounds, spot->position, settings);
     } else if (const auto* point = std::get_if<scene::PointLight>(&light.shape)) {
-        fit_cube(map, bounds, point->position, mat3(1), settings);
+        fit_point(map, bounds, point->position, settings);
     } else if (const auto* rect = std::get_if<scene::RectLight>(&light.shape)) {
         const vec3 u = glm::normalize(rect->half_u), n = glm::normalize(glm::cross(rect->half_u, rect->half_v));
         fit_cube(map, bounds, rect->centre, mat3(u, glm::cross(n, u), n), settings);

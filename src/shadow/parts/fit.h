@@ -3,6 +3,7 @@
 
 #include "shadow/parts/light_map.h"
 
+#include <optional>
 #include <vector>
 
 // What light maps are fitted from, for techniques that place layers of their own.
@@ -27,11 +28,18 @@ shaders::LightMapLayer fit_parallel_layer(
 
 /// Where each of `count` cascades ends between `near` and `far`, along the view: `split` = 0 gives them one length, 1 one ratio (the
 /// optimum for a plane through the view's axis that the light grazes), and between is the mean so weighted (Zhang, Sun, Xu, Lun 2006,
-/// "Parallel-split shadow maps", equation 4).
-std::vector<float> cascade_ends(float near, float far, int count, float split);
+/// "Parallel-split shadow maps", equation 4). One ratio counts from `nearest`, where that is further off than `near`: from there on there
+/// is something to see, and cascades would lie before it (Lloyd 2007, section 5.1.8). The first still begins at `near`.
+std::vector<float> cascade_ends(float near, float far, int count, float split, float nearest = 0.0f);
 
 /// A layer for each cascade.
 void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 direction, const LightMapSettings&);
+
+/// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
+/// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+std::optional<shaders::LightMapLayer> warped_layer(
+    const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 
 /// What one perspective layer, or the faces of a cube, see from a point of a light.
 struct PointFit {
@@ -44,16 +52,22 @@ struct PointFit {
 /// its axis, else those faces of a cube that the hull may touch.
 PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, const Bounds& casters, const LightMapSettings&);
 
-/// Draws all opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
+/// What the GPU has found out about a map's layers; invalid where the CPU has.
+struct OnGpu {
+    gpu::BufferId fitted{}; ///< as LightMap::fitted
+    gpu::BufferId commands{}; ///< as cull_casters (parts/cull.h) writes
+};
+
+/// Draws opaque and masked casters into the layers of `map`, the first ones of `depth`: one pass, culled per layer. The format is
 /// `depth`'s. With `before`, only what lies behind the depths of that image.
-void draw_light_layers(
-    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth, gpu::ImageId before = {});
+void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
+    gpu::ImageId before = {}, OnGpu = {});
 
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
-/// of `pass`, and the constants begin with clip_from_world for each layer.
-void draw_casters(
-    gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass, const gpu::Program& masked);
+/// of `pass`, and the constants begin with clip_from_world for each layer. `commands`: as OnGpu.
+void draw_casters(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::RasterPass pass,
+    const gpu::Program& masked, gpu::BufferId commands = {});
 
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);

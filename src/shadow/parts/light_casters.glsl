@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertex shader of a pass that draws casters into a light's layers. The includer names its block of constants, CASTER_CONSTANTS, whose
-// first member is clip_from_world for each layer, and defines CASTERS_MASKED where light_masked.glsl follows.
+// first member is clip_from_world for each layer, and defines CASTERS_MASKED where light_masked.glsl follows, CASTERS_WARPED where fragments
+// write their depth.
 #ifndef GNOMON_LIGHT_CASTERS_GLSL
 #define GNOMON_LIGHT_CASTERS_GLSL
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +12,10 @@ layout(location = 0) in vec3 position;
 layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { CASTER_CONSTANTS c; };
 
-layout(location = 2) flat out int layer; // for light_depth_peel.glsl
+layout(location = 2) flat out int layer;
+#ifdef CASTERS_WARPED
+layout(location = 3) out float before_far; // metres along the layer's axis, from the far plane towards the light
+#endif
 
 #ifdef CASTERS_MASKED
 layout(location = 2) in vec2 uv;
@@ -24,7 +28,15 @@ void main()
 {
     const uint slot = instance_slot(gl_InstanceIndex);
     gl_Layer = layer = instance_layer(gl_InstanceIndex);
-    gl_Position = c.clip_from_world[gl_Layer] * vec4(transform_point(instances[slot], position), 1.0);
+    const vec4 p_world = vec4(transform_point(instances[slot], position), 1.0);
+    gl_Position = c.clip_from_world[gl_Layer] * p_world;
+#ifdef CASTERS_WARPED
+    const vec4 range = c.ranges[gl_Layer];
+    const float depth = dot(c.depth_planes[gl_Layer], p_world);
+    before_far = range.y - depth;
+    gl_Position.z = 0.5 * gl_Position.w; // nothing is clipped in depth, but what lies behind a light
+    gl_ClipDistance[0] = range.z != 0.0 ? depth - range.x : 1.0;
+#endif
 #ifdef CASTERS_MASKED
     uv_alpha = vec3(uv, unpackUnorm4x8(color).a);
     material = instances[slot].material;

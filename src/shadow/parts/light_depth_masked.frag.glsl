@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "src/shadow/parts/light_masked.glsl"
-
-void main()
-{
-    if (!caster_is_there()) discard;
-}
+#define DEPTH_MASKED
+#include "src/shadow/parts/light_depth_fragment.glsl"

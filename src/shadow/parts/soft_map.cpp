@@ -3,6 +3,8 @@
 
 #include "shadow/light_constants.h"
 
+#include <cstddef>
+
 namespace gnomon::shadow::parts {
 
 void describe_soft(Fields& fields, shaders::SoftParams& p, int largest)
@@ -30,15 +32,15 @@ SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::
     return out;
 }
 
-void resolve_soft(gpu::PassList& passes, const Frame& frame, std::string_view shader, std::span<const gpu::SpecConstant> spec,
-    gpu::Constants constants, std::vector<gpu::Binding> more)
+void resolve_soft(gpu::PassList& passes, const Frame& frame, const LightMap& map, std::string_view shader,
+    std::span<const gpu::SpecConstant> spec, gpu::Constants constants, std::vector<gpu::Binding> more)
 {
     gpu::FullscreenPass pass;
     pass.name = "resolve";
     pass.program = &passes.device().raster_program("shaders/fullscreen.vert", shader, spec);
     pass.bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}};
     pass.bindings.insert(pass.bindings.end(), more.begin(), more.end());
-    pass.constants = std::move(constants);
+    pass.constants = with_map(std::move(constants), map, offsetof(shaders::SoftResolve, map));
     pass.colors = {{frame.output}};
     passes.fullscreen(std::move(pass));
 }

@@ -28,8 +28,9 @@ shaders::SoftResolve soft_constants(const Frame&, const shaders::LightMap&, cons
 /// Draws the light map from the light's centre.
 SoftMap draw_soft_map(gpu::PassList&, const Frame&, const shaders::SoftParams&);
 
-/// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow.
-void resolve_soft(gpu::PassList&, const Frame&, std::string_view shader, std::span<const gpu::SpecConstant>, gpu::Constants,
-    std::vector<gpu::Binding> more);
+/// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow. The constants begin
+/// with soft_constants of the map.
+void resolve_soft(gpu::PassList&, const Frame&, const LightMap&, std::string_view shader, std::span<const gpu::SpecConstant>,
+    gpu::Constants, std::vector<gpu::Binding> more);
 
 } // namespace gnomon::shadow::parts

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cascades under shadow_map's own resolve shader, with the map's block of constants changed at will.
+#include "technique_fixture.h"
+#include "tests/light_map_twin.h"
+
+#include "shadow/light_constants.h"
+#include "shadow/parts/fit.h"
+#include "techniques/shadow_map/shadow_map.shared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+using shadow::parts::Fit;
+using shadow::parts::LightMapSettings;
+using techniques::shadow_map::Params;
+using techniques::shadow_map::ResolveConstants;
+
+constexpr gpu::Size picture{160, 90};
+constexpr float guard = 3.5f; // of 3 x 3 bilinear taps
+
+class CascadesTest : public gpu::TechniqueTest {
+protected:
+    static void SetUpTestSuite()
+    {
+        TechniqueTest::SetUpTestSuite();
+        // a floor under rows of small sheets, along which the view looks
+        for (int i = 0; i < 40; ++i)
+            gpu::add_quad(scene_, {float(i % 4) * 1.3f - 2.0f, 0.4f, 7.5f - 0.4f * float(i)}, 0.17f + 0.003f * float(i));
+    }
+
+    static scene::View view_from(vec3 eye, vec3 target)
+    {
+        return scene::make_view({"", eye, target, {0, 1, 0}, 0.7f}, picture, scene_.bounds());
+    }
+
+    static LightMapSettings settings(const shaders::FitParams& fitting)
+    {
+        return {.size = 256, .fitting = fitting, .slope_bias = 3.75f, .guard_texels = guard};
+    }
+
+    /// What `view` sees, with casters in the layers of `drawn` and the rest of the block from `read`.
+    static std::vector<float> draw(const scene::View& view, const shaders::LightMap& drawn, const shaders::LightMap& read)
+    {
+        shadow::SceneGpu resources(device(), scene_);
+        gpu::Image out = image("visibility", VK_FORMAT_R32_SFLOAT, picture);
+        gpu::PassList passes(device());
+        const shadow::GBuffer g = shadow::draw_gbuffer(passes, resources, view, {.material = false});
+        const shadow::Frame frame{scene_, view, light_, resources, g, passes.import(out), 0};
+        const gpu::ImageId depth
+            = passes.transient({VK_FORMAT_D32_SFLOAT, {256, 256}, drawn.layer_count, 1, VK_SAMPLE_COUNT_1_BIT, false, "map"});
+        shadow::parts::draw_light_layers(passes, frame, drawn, settings({}), depth);
+        const gpu::SpecConstant pcf[] = {{0, 3u}};
+        passes.fullscreen({.name = "resolve",
+            .program = &device().raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", pcf),
+            .bindings = {{g.depth, gpu::Use::sample}, {g.normal, gpu::Use::sample},
+                gpu::Binding(depth, gpu::Use::sample, gpu::Sampler::compare_linear).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
+            .constants
+            = ResolveConstants{shadow::view_constants(view, 0), shadow::light_constants(light_, scene_.bounds()), read, Params{}},
+            .colors = {{frame.output}}});
+        device().submit(std::move(passes));
+        return device().read_back(out).values;
+    }
+
+    static shaders::LightMap fit(const scene::View& view, const shaders::FitParams& fitting)
+    {
+        return shadow::parts::fit_light_map(scene_, scene_.bounds(), view, light_, settings(fitting));
+    }
+
+    /// The floor's point in each pixel; what lies above it is seen too, but not at these points.
+    static std::vector<vec3> floor_points(const scene::View& view)
+    {
+        std::vector<vec3> points;
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x) {
+                const scene::Ray ray = scene::view_ray(view, vec2(x, y) + 0.5f);
+                points.push_back(ray.origin - ray.direction * (ray.origin.y / ray.direction.y));
+            }
+        return points;
+    }
+
+    inline static scene::Scene scene_ = gpu::floor_scene(8);
+    inline static const scene::Light light_ = scene::parse_light("sun,elevation=50,azimuth=75,angle=0", {}, {{-8, 0, -8}, {8, 0.4f, 8}});
+};
+
+/// No layer ends before any distance.
+void only_layer(shaders::LightMap& map, uint32_t layer)
+{
+    for (int i = 0; i < LIGHT_MAP_MAX_LAYERS; ++i) {
+        const float end = i < int(layer) ? std::numeric_limits<float>::lowest() : std::numeric_limits<float>::max();
+        map.splits[i / 4][i % 4] = map.bands[i / 4][i % 4] = end;
+    }
+}
+
+TEST_F(CascadesTest, BlendWithinBandsOnly)
+{
+    const scene::View view = view_from({0, 2.5f, 8.5f}, {0, 0, 2});
+    const shaders::LightMap map = fit(view, {.fit = int(Fit::cascades), .split = 0.3f, .stable = 0, .blend = 0.5f});
+    ASSERT_EQ(map.layer_count, 4u);
+    const std::vector<float> blended = draw(view, map, map);
+    shaders::LightMap hard_map = map;
+    for (int k = 0; k < 2; ++k) hard_map.bands[k] = hard_map.splits[k];
+    const std::vector<float> hard = draw(view, map, hard_map);
+    std::vector<std::vector<float>> layers;
+    for (uint32_t i = 0; i < 4; ++i) {
+        shaders::LightMap one = map;
+        only_layer(one, i);
+        layers.push_back(draw(view, map, one));
+    }
+    const std::vector<vec3> points = floor_points(view);
+    int in_bands = 0, changed = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        const int layer = tests::select_layer(map, points[i]);
+        const double next = tests::next_share(map, points[i]);
+        // sheets are up to 0.4 m above the floor's point behind them: what pixels near a band's ends show is not known here
+        vec3 before = points[i];
+        before += (view.eye - before) * (0.4f / (view.eye.y - before.y));
+        if (tests::select_layer(map, before) != layer || (tests::next_share(map, before) > 0.0) != (next > 0.0)) continue;
+        if (next == 0.0) {
+            EXPECT_EQ(blended[i], hard[i]) << i;
+            EXPECT_EQ(blended[i], layers[size_t(layer)][i]) << i;
+            continue;
+        }
+        ++in_bands;
+        changed += blended[i] != hard[i];
+        const float here = layers[size_t(layer)][i], after = layers[size_t(layer) + 1][i];
+        EXPECT_GE(blended[i], std::min(here, after) - 1e-6f);
+        EXPECT_LE(blended[i], std::max(here, after) + 1e-6f);
+        if (std::abs(here - after) < 0.1f) continue;
+        const double share = double((blended[i] - here) / (after - here));
+        EXPECT_GE(share, tests::next_share(map, before) - 1e-3);
+        EXPECT_LE(share, next + 1e-3);
+    }
+    EXPECT_GT(in_bands, 400);
+    EXPECT_GT(changed, 10);
+}
+
+// A pixel keeps its visibility while the view, for which the cascades are fitted, moves by fractions of the finest texel and turns, as long
+// as it stays in its cascade.
+TEST_F(CascadesTest, StableOnesDoNotSwim)
+{
+    const scene::View still = view_from({0.2f, 2.5f, 8.5f}, {0, 0, 1});
+    const std::vector<vec3> points = floor_points(still);
+    const auto swimming = [&](int stable) {
+        const shaders::FitParams fitting{.fit = int(Fit::cascades), .split = 0.3f, .stable = stable};
+        const shaders::LightMap first = fit(still, fitting);
+        const std::vector<float> start = draw(still, first, first);
+        int swum = 0, judged = 0;
+        for (int step = 1; step <= 64; ++step) {
+            const float t = float(step) * first.layers[0].texel_metres;
+            const vec3 eye(0.2f + 0.27f * t, 2.5f + 0.09f * t, 8.5f - 0.31f * t);
+            const shaders::LightMap map = fit(view_from(eye, vec3(0.002f * float(step), 0, 1) - 0.31f * t * vec3(0, 0, 1)), fitting);
+            const std::vector<float> now = draw(still, map, map);
+            for (size_t i = 0; i < points.size(); ++i) {
+                const vec3 above = points[i] + (still.eye - points[i]) * (0.4f / still.eye.y);
+                const int layer = tests::select_layer(first, points[i]);
+                bool keeps = true;
+                for (const vec3 p : {points[i], above})
+                    for (const shaders::LightMap* m : {&first, &map})
+                        keeps = keeps && tests::select_layer(*m, p) == layer && tests::next_share(*m, p) == 0.0;
+                judged += keeps;
+                swum += keeps && std::abs(now[i] - start[i]) > 1.0f / 64;
+            }
+        }
+        EXPECT_GT(judged, 64 * 4000);
+        return swum;
+    };
+    EXPECT_EQ(swimming(1), 0);
+    EXPECT_GT(swimming(0), 1000);
+}
+
+} // namespace
+} // namespace gnomon
