@@ -27,7 +27,7 @@ void main()
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int face = c.grid.layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(c.grid.centre, mat3(1.0), r.p_world) : 0;
-    LightMapLayer layer = c.grid.face[face];
+    const LightMapLayer layer = c.grid.face[face];
     MapPoint m = project(layer, r.p_world);
     const float wanted = texelFetch(wanted_image, ivec2(gl_FragCoord.xy), 0).r;
     const int level = max(level_for(wanted, m.uv) - int(counts.coarser), 0);
@@ -44,7 +44,7 @@ void main()
 
     // the page's texels are those of a map of this size
     const float size = float(c.grid.page << level);
-    layer.texel_metres /= float(1 << level);
+    m.texel /= float(1 << level);
     m.depth -= c.params.bias_constant;
     const float radius = 0.5 * float(pcf) + 1.0;
     ReceiverPlane plane = coned ? cone_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit)
