@@ -46,8 +46,8 @@ struct LightMap {
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube, tetrahedron), or the view's eye (cascades)
     int fit_used; ///< parts::Fit: what was asked for, or what that gave way to where it does not suit light and view
-    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
-               ///< along whose third axis cascades are split
+    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along
+               ///< +z; of the view along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
     vec4 bands[2]; ///< and where the band before it begins, in which it is blended into the next
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];

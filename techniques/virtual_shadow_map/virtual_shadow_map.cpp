@@ -170,8 +170,8 @@ void VirtualShadowMap::draw(gpu::PassList& passes, const Frame& frame, const Wor
 
 void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const Params& params, const Work& w, gpu::ImageId wanted)
 {
-    const gpu::SpecConstant modes[] = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.show)},
-        {3, uint32_t(params.bias_cone > 0.0f)}};
+    const gpu::SpecConstant modes[]
+        = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.show)}, {3, uint32_t(params.bias_cone > 0.0f)}};
     passes.fullscreen({.name = "resolve",
         .program
         = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_resolve.frag", modes),

@@ -37,7 +37,8 @@ void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 di
 
 /// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
 /// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
-/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm
+/// with Lloyd's falloff, the storage factor would grow.
 std::optional<shaders::LightMapLayer> warped_layer(
     const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 

@@ -6,9 +6,9 @@
 #include "src/shadow/casters.shared.h"
 #include "src/shadow/parts/light_depth.shared.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cstddef>
+#include <fmt/format.h>
 #include <span>
 #include <stdexcept>
 
