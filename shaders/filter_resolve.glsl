@@ -36,7 +36,7 @@ FilterPoint filter_point(Receiver r, int index)
 {
     FilterPoint at;
     at.layer = index;
-    const LightMapLayer layer = c.filtering.map.layers[at.layer];
+    const LightMapLayer layer = layer_at(c.filtering.map.layers[at.layer], r.p_world);
     const MapPoint m = project(layer, r.p_world);
     at.uv = m.uv;
     at.dx = at.dy = vec2(0.0);

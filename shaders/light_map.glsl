@@ -43,11 +43,39 @@ int select_cascade(vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
     return int(dot(ended, vec4(1.0)));
 }
 
+// Two paraboloids, each for the half of all directions on its side: the first looks along -y.
+int select_paraboloid_layer(vec3 centre, mat3 axes, vec3 p_world) { return dot(p_world - centre, axes[1]) <= 0.0 ? 0 : 1; }
+
 int select_layer(uint layout_kind, vec3 centre, mat3 axes, vec4 splits[2], vec3 p_world)
 {
     if (layout_kind == LIGHT_MAP_SINGLE) return 0;
+    if (layout_kind == LIGHT_MAP_DUAL_PARABOLOID) return select_paraboloid_layer(centre, axes, p_world);
     if (layout_kind == LIGHT_MAP_TETRAHEDRON) return select_tetrahedron_layer(centre, axes, p_world);
     return layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(centre, axes, p_world) : select_cascade(centre, axes, splits, p_world);
+}
+
+// A layer as it is read around p. Of a paraboloid, whose map is no projection, this is the warped layer that is tangent to it at p: position,
+// depth (there the distance from the light), texels' widths and receivers' slopes are right, to first order around p. All others are themselves.
+// A paraboloid's map_from_world gives (s x, -s y, z, s) in its axes, and uv - 1/2 = s (x, -y) / (|p| + z) (Heidrich, Seidel 1998).
+LightMapLayer layer_at(LightMapLayer layer, vec3 p_world)
+{
+    if (layer.warped != 2) return layer;
+    const mat4 m = layer.map_from_world;
+    const vec4 h = m * vec4(p_world, 1.0);
+    const vec3 local = vec3(h.xy / h.w, h.z);
+    const float distance = max(length(local), 1e-20), ahead = max(distance + local.z, 1e-6 * distance);
+    const vec3 rows[3] = vec3[3](vec3(m[0][0], m[1][0], m[2][0]), vec3(m[0][1], m[1][1], m[2][1]), vec3(m[0][2], m[1][2], m[2][2]));
+    const vec3 direction = (rows[0] * local.x + rows[1] * local.y) / h.w / distance + rows[2] * (local.z / distance);
+    layer.depth_plane = vec4(direction, distance - dot(direction, p_world));
+    for (int k = 0; k < 2; ++k) {
+        const float uv = 0.5 + h[k] / ahead;
+        const vec3 gradient = (rows[k] - (h[k] / ahead) * (direction + rows[2])) / ahead;
+        const vec4 row = uv * layer.depth_plane + distance * vec4(gradient, -dot(gradient, p_world));
+        for (int i = 0; i < 4; ++i) layer.map_from_world[i][k] = row[i];
+    }
+    for (int i = 0; i < 4; ++i) layer.map_from_world[i][3] = layer.depth_plane[i];
+    layer.warped = 1;
+    return layer;
 }
 
 // The layers that hold p: `first` alone, or in the band at a cascade's end also the one after it.
@@ -117,6 +145,15 @@ MapPoint project(LightMapLayer layer, vec3 p_world)
     else m.texel = vec2(layer.texel_metres * (layer.perspective != 0 ? m.depth : 1.0));
     m.inside = h.w > 0.0 && all(greaterThanEqual(m.uv, vec2(0.0))) && all(lessThanEqual(m.uv, vec2(1.0)));
     return m;
+}
+
+// The point of the light's ray through `uv` at that linear depth: where the planes of one u, of one v and of the depth meet.
+vec3 world_from_map(LightMapLayer layer, vec2 uv, float depth)
+{
+    const mat4 rows = transpose(layer.map_from_world);
+    const vec4 a = rows[0] - uv.x * rows[3], b = rows[1] - uv.y * rows[3], d = layer.depth_plane;
+    const vec3 bd = cross(b.xyz, d.xyz), da = cross(d.xyz, a.xyz), ab = cross(a.xyz, b.xyz);
+    return (-a.w * bd - b.w * da + (depth - d.w) * ab) / dot(a.xyz, bd);
 }
 
 float fetch_depth(sampler2DArray map, int layer_index, ivec2 texel)

@@ -7,6 +7,7 @@
 #define LIGHT_MAP_CUBE 1
 #define LIGHT_MAP_CASCADES 2
 #define LIGHT_MAP_TETRAHEDRON 3
+#define LIGHT_MAP_DUAL_PARABOLOID 4
 #define LIGHT_MAP_MAX_LAYERS 8
 
 SHARED_BEGIN(shaders)
@@ -17,11 +18,11 @@ struct FitParams {
     int cascades DEFAULT(4);
     float split DEFAULT(0.9f); ///< 0: cascades of one length, 1: of one ratio
     int stable DEFAULT(1);
+    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
+    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
     int warp DEFAULT(0); ///< parts::Falloff
     float warp_near DEFAULT(0.0f); ///< lispsm: of the depths seen, the nearest part that may do with coarser texels
     float psm_slide DEFAULT(0.02f); ///< of the depths seen: how far behind the eye psm looks from
-    float blend DEFAULT(0.1f); ///< of a cascade's length, over which it becomes the next
-    float nearest DEFAULT(0.0f); ///< metres: cascades of one ratio begin no nearer
     int point_layout DEFAULT(0); ///< parts::PointLayout
 };
 
@@ -34,8 +35,8 @@ struct LightMapLayer {
     float near; ///< metres along the axis where stored z = 1
     float far; ///< where stored z = 0
     uint perspective; ///< 0 or 1: stored z is affine in linear depth, or in its inverse
-    uint warped; ///< 0 or 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
-                 ///< where it is least of all that is seen
+    uint warped; ///< 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
+                 ///< where it is least of all that is seen; 2: a paraboloid, to be read through layer_at (shaders/light_map.glsl)
     float texel_uv; ///< width of a texel in uv
 };
 
@@ -46,8 +47,8 @@ struct LightMap {
     float depth_step; ///< step of fixed-point depth (D16: 1/65535); 0 for D32F, whose rounding is relative
     vec3 centre; ///< where the layers look from (cube, tetrahedron), or the view's eye (cascades)
     int fit_used; ///< parts::Fit: what was asked for, or what that gave way to where it does not suit light and view
-    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along +z; of the view
-               ///< along whose third axis cascades are split
+    mat3 axes; ///< of the cube or tetrahedron, in world space: identity for points, a rectangle's or disk's own, the light shining along
+               ///< +z; of the view along whose third axis cascades are split
     vec4 splits[2]; ///< cascades: distance along that axis where each layer ends; the last has no end
     vec4 bands[2]; ///< and where the band before it begins, in which it is blended into the next
     LightMapLayer layers[LIGHT_MAP_MAX_LAYERS];

@@ -16,9 +16,9 @@ vec4 reference_four(ReceiverPlane r, vec2 first, bool coned)
 {
     const vec2 d = first + 0.5 - r.at;
     const vec4 dx = d.x + vec4(0.0, 1.0, 1.0, 0.0), dy = d.y + vec4(1.0, 1.0, 0.0, 0.0);
-    vec4 z = r.z + r.slope.x * dx + r.slope.y * dy;
-    if (coned) z += r.cone * sqrt(dx * dx + dy * dy);
-    return max(z, 0.0);
+    vec4 z = r.slope.x * dx + r.slope.y * dy;
+    if (coned) z = max(z, r.cone * sqrt(dx * dx + dy * dy));
+    return max(r.z + z, 0.0);
 }
 
 // Whether these texels are lit.
@@ -33,9 +33,9 @@ vec2 nearest_tap(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 at, 
 {
     const vec2 centre = clamp(floor(at), vec2(0.0), 1.0 / texel - 1.0) + 0.5;
     const vec2 offset = centre - r.at;
-    float z = r.z + dot(r.slope, offset);
-    if (coned) z += r.cone * length(offset);
-    return vec2(texelFetch(map, ivec3(centre, layer_index), 0).r, max(z, 0.0));
+    float z = dot(r.slope, offset);
+    if (coned) z = max(z, r.cone * length(offset));
+    return vec2(texelFetch(map, ivec3(centre, layer_index), 0).r, max(r.z + z, 0.0));
 }
 
 // One tap d texels from the receiver: a 2 x 2 block blended, or the nearest texel.

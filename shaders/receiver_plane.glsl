@@ -10,7 +10,7 @@
 // Rasterisers snap vertices to 1/256 texel; with both ends of an edge, a plane's depth moves by 1/128 of its slope.
 #define PLANE_SNAP (1.0 / 128.0)
 
-// The depth to compare with at d texels from `at` is z + dot(slope, d) + cone * |d|.
+// The depth to compare with at d texels from `at` is z + max(dot(slope, d), cone * |d|), of which one is 0 or both count.
 struct ReceiverPlane {
     vec2 at; // where the receiver falls, in texels
     float z; // stored depth there, with all margins

@@ -39,7 +39,7 @@ SoftPoint soft_point(Receiver r, float horizon, int index)
     p.receiver = r;
     p.horizon = horizon;
     p.layer = index;
-    const LightMapLayer layer = c.soft.map.layers[p.layer];
+    const LightMapLayer layer = layer_at(c.soft.map.layers[p.layer], r.p_world);
     const MapPoint m = project(layer, r.p_world);
     p.at = m.uv * c.soft.map.size;
     p.texel = m.texel;

@@ -25,6 +25,7 @@ inline int select_layer(const shaders::LightMap& map, vec3 p_world)
         return layer;
     }
     const vec3 d = (p_world - map.centre) * map.axes;
+    if (map.layout_kind == LIGHT_MAP_DUAL_PARABOLOID) return d.y <= 0.0f ? 0 : 1;
     if (map.layout_kind == LIGHT_MAP_TETRAHEDRON) {
         const float along[] = {d.x + d.y + d.z, d.x - d.y - d.z, -d.x + d.y - d.z, -d.x - d.y + d.z};
         int most = 0;
@@ -58,6 +59,22 @@ inline double depth_from_stored(const shaders::LightMapLayer& layer, double z)
 {
     const double near = double(layer.near), far = double(layer.far);
     return layer.perspective ? near * far / (z * (far - near) + near) : far - z * (far - near);
+}
+
+/// A paraboloid's point in closed form, without the tangent layer that the shader reads through.
+inline MapPoint project_paraboloid(const shaders::LightMap& map, int index, vec3 p_world)
+{
+    const shaders::LightMapLayer& layer = map.layers[index];
+    const glm::dvec3 d = glm::dvec3(p_world) - glm::dvec3(map.centre), z(layer.depth_plane);
+    const glm::dmat4 m(layer.map_from_world);
+    const glm::dvec3 x(m[0][0], m[1][0], m[2][0]), y(m[0][1], m[1][1], m[2][1]); // times the scale
+    const double distance = glm::length(d), ahead = distance + glm::dot(d, z);
+    MapPoint out{glm::dvec2(0.5) + glm::dvec2(glm::dot(d, x), glm::dot(d, y)) / ahead, 0, distance, distance, true, glm::dvec2(0)};
+    out.z = stored_from_depth(layer, distance);
+    // the map is conformal: (1 + rho^2) / 2 in angle for each unit of rho
+    const double scale = glm::length(x), rho = glm::length(out.uv - 0.5) / scale;
+    out.texel = glm::dvec2(double(layer.texel_uv) * distance * 2.0 / ((1.0 + rho * rho) * scale));
+    return out;
 }
 
 inline MapPoint project(const shaders::LightMapLayer& layer, vec3 p_world)

@@ -121,15 +121,20 @@ void score(const Stage& stage, const scene::Light& light, const truth::Reference
     out.truth_samples = truth.visibility.samples;
     out.truth_noise = out.metrics.count("noise") ? out.metrics["noise"] : 0.0;
     if (hard && truth.visibility.mean.channels == 1 && out.scored_pixels > 0) {
-        size_t outside = 0;
+        size_t acne = 0, leak = 0;
         if (out.metrics["wrong_pixels"] > 0) {
             std::vector<uint8_t> own;
             std::vector<uint8_t>& band = options.edge_band ? *options.edge_band : own;
             if (band.empty()) band = edge_band(stage, light, truth);
             for (size_t i = 0; i < mask.size(); ++i)
-                outside += mask[i] && !band[i] && std::abs(test.values[i] - truth.visibility.mean.values[i]) > 0.5f;
+                if (mask[i] && !band[i]) {
+                    const float difference = test.values[i] - truth.visibility.mean.values[i];
+                    acne += difference<-0.5f, leak += difference> 0.5f;
+                }
         }
-        out.metrics["wrong_outside_band"] = double(outside) / double(out.scored_pixels);
+        out.metrics["wrong_outside_band"] = double(acne + leak) / double(out.scored_pixels);
+        out.metrics["acne_outside_band"] = double(acne) / double(out.scored_pixels);
+        out.metrics["leak_outside_band"] = double(leak) / double(out.scored_pixels);
     }
     if (options.filter) score_filter(*options.filter, judged_channels(rendered.images.front(), 1), mask, out);
     if (options.heat_map) *options.heat_map = metrics::signed_heat_map(comparison);

@@ -50,6 +50,9 @@ double wrong_pixels(const Comparison&);
 double acne(const Comparison&);
 double leak(const Comparison&);
 double wrong_outside_band(const Comparison&);
+double acne_outside_band(const Comparison&);
+double leak_outside_band(const Comparison&);
+double contact_gap(const Comparison&);
 // penumbra.cpp
 double penumbra_width(const Comparison&);
 double banding(const Comparison&);

@@ -57,4 +57,37 @@ double wrong_outside_band(const Comparison& c)
     return fraction(c, [&](const Grey& g, size_t i) { return wrong(g, i) && no_edge_near(g, c.truth.size, i); });
 }
 
+double acne_outside_band(const Comparison& c)
+{
+    return fraction(c, [&](const Grey& g, size_t i) { return wrong(g, i) && g.difference(i) < 0.0f && no_edge_near(g, c.truth.size, i); });
+}
+
+double leak_outside_band(const Comparison& c)
+{
+    return fraction(c, [&](const Grey& g, size_t i) { return wrong(g, i) && g.difference(i) > 0.0f && no_edge_near(g, c.truth.size, i); });
+}
+
+double contact_gap(const Comparison& c)
+{
+    const Grey g(c);
+    constexpr int widest = 32; // more is no gap but a lost shadow
+    double lit = 0.0;
+    size_t runs = 0;
+    const auto walk = [&](size_t first, size_t step, int count) {
+        int in_run = 0;
+        bool dark_before = false;
+        for (int k = 0; k < count; ++k) {
+            const size_t i = first + size_t(k) * step;
+            const bool dark = g.scored(i) && g.truth(i) <= 0.5f;
+            if (dark && !dark_before) in_run = 0, ++runs;
+            if (dark && wrong(g, i) && in_run < widest) ++in_run, lit += 1.0;
+            dark_before = dark;
+        }
+    };
+    const auto width = size_t(c.truth.size.width);
+    for (int y = 0; y < c.truth.size.height; ++y) walk(size_t(y) * width, 1, c.truth.size.width);
+    for (int x = 0; x < c.truth.size.width; ++x) walk(size_t(x), width, c.truth.size.height);
+    return runs ? lit / double(runs) : 0.0;
+}
+
 } // namespace gnomon::metrics

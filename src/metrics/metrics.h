@@ -35,6 +35,9 @@ struct Metric {
 /// | acne | hard | wrong and darker; soft: truth >= 0.999 and test < 0.9 |
 /// | leak | hard | wrong and lighter; soft: truth <= 0.001 and test > 0.1 |
 /// | wrong_outside_band | hard | fraction that is wrong although all scored pixels of its 3x3 neighbourhood have the same truth |
+/// | acne_outside_band, leak_outside_band | hard | the darker and the lighter ones of these |
+/// | contact_gap | hard | pixels, at most 32, that are wrong and lighter in a run of scored pixels whose truth is dark: mean over the
+/// runs of all rows and columns. Where a bias moves a shadow off its caster, the width of the lit gap |
 /// | edge_displacement | hard | pixels from each edge of one picture to the nearest of the other, at most 32; mean over both ways |
 /// | mae, rms, max, bias | both | of test - truth |
 /// | bias_penumbra, bias_outside | soft | bias where truth is inside (0.001, 0.999), and elsewhere |

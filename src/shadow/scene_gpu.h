@@ -55,6 +55,7 @@ public:
         Second second = Second::none; ///< what stream 1 holds
         const vec3* back_to_front_of = nullptr; ///< sorts instances by the distance of their centres from this eye
         uint32_t layer = 0; ///< < 256; reaches the vertex shader in the top byte of gl_InstanceIndex (shaders/scene.glsl)
+        uint32_t pulled = 0; ///< > 0: no vertex or index buffers, but so many vertices for each triangle, which the shader reads for itself
     };
     /// Draw calls for the chosen triangles inside a raster pass; returns the triangles sent.
     uint64_t draw(gpu::Encoder&, const DrawOptions&);

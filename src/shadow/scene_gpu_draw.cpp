@@ -39,10 +39,12 @@ gpu::VertexStream SceneGpu::previous_stream() { return {12, {{4, 0, VK_FORMAT_R3
 uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
 {
     const Impl& s = *impl_;
-    encoder.vertex_buffer(0, s.positions);
-    if (options.second == Second::attributes) encoder.vertex_buffer(1, s.attributes);
-    if (options.second == Second::previous) encoder.vertex_buffer(1, previous_positions());
-    encoder.index_buffer(s.indices);
+    if (options.pulled == 0) {
+        encoder.vertex_buffer(0, s.positions);
+        if (options.second == Second::attributes) encoder.vertex_buffer(1, s.attributes);
+        if (options.second == Second::previous) encoder.vertex_buffer(1, previous_positions());
+        encoder.index_buffer(s.indices);
+    }
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < s.slots.size(); ++i)
         if ((s.slots[i].set & options.sets) != 0 && !(options.cull && outside(s.slots[i].bounds, *options.cull))) order.push_back(i);
@@ -62,8 +64,11 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
             encoder.cull(slot.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         }
         const MeshRange& range = s.ranges[slot.mesh];
-        encoder.draw_indexed(
-            range.index_count, uint32_t(end - first), range.first_index, int32_t(range.first_vertex), order[first] | options.layer << 24);
+        const uint32_t count = uint32_t(end - first), first_instance = order[first] | options.layer << 24;
+        if (options.pulled)
+            encoder.draw(range.index_count / 3 * options.pulled, count, 0, first_instance);
+        else
+            encoder.draw_indexed(range.index_count, count, range.first_index, int32_t(range.first_vertex), first_instance);
         triangles += uint64_t(range.index_count / 3) * (end - first);
         first = end;
     }

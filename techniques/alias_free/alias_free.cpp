@@ -3,9 +3,13 @@
 // make them, and at several positions of a pixel (Pan et al. 2009).
 #include "techniques/alias_free/alias_free_blocks.h"
 
+#include "base/error.h"
 #include "shadow/light_constants.h"
 #include "shadow/parts/fit.h"
 #include "shadow/technique.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace gnomon::techniques::alias_free {
 
@@ -32,14 +36,15 @@ Grid make_grid(int side, bool footprints)
     Grid grid{};
     float scale = float(side);
     vec2 corner(0);
-    for (uint32_t i = 0; i < GRID_MAX_LEVELS; ++i, scale *= 0.25f) {
+    grid.image = vec2(float(side));
+    for (uint32_t i = 0; i < GRID_MAX_LEVELS; ++i, scale *= 0.5f) {
         const auto cells = uint32_t(std::ceil(scale));
         grid.level[i] = {.side = cells, .first = grid.cells, .scale = scale, .corner = corner};
         grid.cells += cells * cells, ++grid.levels;
-        corner = i == 0 ? vec2(float(side), 0) : corner + vec2(0, float(cells));
+        grid.image = glm::max(grid.image, corner + vec2(float(cells)));
+        corner = i == 0 ? vec2(float(side), 0) : corner + vec2(0, float(cells)); // the first; the others beside it, in a column
         if (!footprints || cells == 1) break;
     }
-    grid.image = vec2(float(footprints ? side + (side + 3) / 4 : side), float(side));
     return grid;
 }
 
@@ -77,22 +82,38 @@ private:
             .colors = {{frame.output}}});
     }
 
+    static uint64_t bytes_of(const GridConstants& c) { return 4 * (GRID_HEADER + 4 * uint64_t(c.grid.cells) * c.map.layer_count); }
+
+    /// The grid that was asked for, or as large a one as a buffer takes: the picture is the same.
+    void place_grid(GridConstants& c, const Frame& frame, const Params& params, uint64_t limit) const
+    {
+        const Bounds& bounds = frame.resources.bounds();
+        c.view = view_constants(frame.view, frame.index), c.light = light_constants(frame.light, bounds);
+        c.blocks = block_count_, c.wide = wide_casters;
+        for (int side = params.grid;; side -= side / 8) {
+            c.map = parts::fit_light_map(frame.scene, bounds, frame.view, frame.light, {.size = side, .fitting = {.fit = params.grid_fit}});
+            c.grid = make_grid(side, sample_counts[params.samples] > 1);
+            if (bytes_of(c) <= limit) return;
+        }
+    }
+
     Lists list_samples(gpu::PassList& passes, const Frame& frame, const Params& params)
     {
         Lists lists;
         const int samples = sample_counts[params.samples];
         if (!blocks_) read_casters(frame.resources);
         lists.samples = {{0, uint32_t(samples)}};
-        lists.constants = {view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
-            parts::fit_light_map(
-                frame.scene, frame.resources.bounds(), frame.view, frame.light, {.size = params.grid, .fitting = {.fit = params.grid_fit}}),
-            make_grid(params.grid, samples > 1), block_count_, wide_casters};
+        const uint64_t pixels = frame.view.size.area(), record = samples > 1 ? 48 : 16, limit = device_.limits().maxStorageBufferRange;
+        if (pixels * record > limit)
+            base::fail("alias_free lists {} bytes a pixel at {} samples, more than a buffer of {} bytes takes for {}x{} pixels; choose a "
+                       "smaller --size or samples=1",
+                record, samples, limit, frame.view.size.width, frame.view.size.height);
+        place_grid(lists.constants, frame, params, limit);
         const uint32_t cells = lists.constants.grid.cells * lists.constants.map.layer_count;
         const gpu::Size size = frame.view.size;
-        const uint64_t pixels = size.area();
         lists.places = passes.transient(gpu::ImageDesc{VK_FORMAT_R32G32_UINT, size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "places"});
-        lists.cells = passes.transient(gpu::BufferDesc{4 * (GRID_HEADER + 4 * uint64_t(cells)), 0, gpu::Memory::device, "cells"});
-        lists.records = passes.transient(gpu::BufferDesc{pixels * (samples > 1 ? 48 : 16), 0, gpu::Memory::device, "records"});
+        lists.cells = passes.transient(gpu::BufferDesc{bytes_of(lists.constants), 0, gpu::Memory::device, "cells"});
+        lists.records = passes.transient(gpu::BufferDesc{pixels * record, 0, gpu::Memory::device, "records"});
         lists.blocked = passes.transient(gpu::BufferDesc{pixels * 4, 0, gpu::Memory::device, "blocked"});
         lists.wide = passes.transient(gpu::BufferDesc{wide_casters * sizeof(WideCaster), 0, gpu::Memory::device, "wide casters"});
         lists.draw = passes.transient(

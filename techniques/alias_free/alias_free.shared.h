@@ -4,8 +4,8 @@
 #include "shaders/frame.shared.h"
 #include "shaders/light_map.shared.h"
 
-#define GRID_MAX_LEVELS 6
-#define GRID_HEADER 49 // words of Cells before its cells: `listed` and `used`
+#define GRID_MAX_LEVELS 11
+#define GRID_HEADER 89 // words of Cells before its cells: `listed` and `used`
 #define NOWHERE 0xffffffffu
 
 TECHNIQUE_BEGIN(alias_free)
@@ -16,7 +16,7 @@ struct Params {
     int grid_fit DEFAULT(1); ///< parts::Fit
 };
 
-/// A level's cells are four times as wide as those of the one before.
+/// A level's cells are twice as wide as those of the one before.
 struct GridLevel {
     uint side; ///< cells
     uint first; ///< of its cells within a layer's

@@ -8,6 +8,7 @@ struct Caster {
     vec3 normal_0, normal_1, normal_2; // of the planes through the light and the edge opposite to each corner
     vec3 point_0, point_1, point_2; // on those edges
     vec3 plane; // the triangle's own normal, towards the light; 0 where the light's rays lie in it: they never cross it
+    vec4 lengths; // of the three normals and the plane's
     uint primitive, slot, triangle;
     bool masked;
 };
@@ -24,50 +25,83 @@ float signed_volume(vec3 n, vec3 d)
 // line through the light meets the triangle. `below`: the height over the triangle's plane, which the light is above.
 bool blocks_light(Caster t, vec3 e, float below)
 {
-    if (!(below < 0.0)) return false;
-    if (!(min(e.x, min(e.y, e.z)) >= 0.0 || max(e.x, max(e.y, e.z)) <= 0.0)) return false;
+    const bool inside = min(e.x, min(e.y, e.z)) >= 0.0 || max(e.x, max(e.y, e.z)) <= 0.0;
+    if (!(below < 0.0 && inside)) return false;
     return !t.masked || mask_keeps(t.slot, t.triangle, e.yz / (e.x + e.y + e.z));
 }
 
-uint blocked_positions(Caster t, uint at)
+vec3 volumes(Caster t, vec3 d_0, vec3 d_1, vec3 d_2)
 {
-    const vec4 s = records[RECORD * at];
-    if (floatBitsToUint(s.w) == t.primitive) return 0;
-    const vec3 e = vec3(signed_volume(t.normal_0, s.xyz - t.point_0), signed_volume(t.normal_1, s.xyz - t.point_1),
-        signed_volume(t.normal_2, s.xyz - t.point_2));
-    const float below = dot(t.plane, s.xyz - t.point_0);
-    if (SAMPLES == 1) return blocks_light(t, e, below) ? 1u : 0u;
+    return vec3(signed_volume(t.normal_0, d_0), signed_volume(t.normal_1, d_1), signed_volume(t.normal_2, d_2));
+}
 
-    // All four are linear over the footprint. No position is further than half of it from the middle: what holds for all of it is
-    // decided at once, and half is more than enough that rounding cannot decide otherwise than position by position.
-    const vec3 u = records[RECORD * at + 1].xyz, v = records[RECORD * at + 2].xyz;
-    const float below_u = dot(t.plane, u), below_v = dot(t.plane, v);
-    if (below - 0.5 * (abs(below_u) + abs(below_v)) >= 0.0) return 0;
-    const vec3 e_u = vec3(signed_volume(t.normal_0, u), signed_volume(t.normal_1, u), signed_volume(t.normal_2, u));
-    const vec3 e_v = vec3(signed_volume(t.normal_0, v), signed_volume(t.normal_1, v), signed_volume(t.normal_2, v));
-    const vec3 swing = 0.5 * (abs(e_u) + abs(e_v));
-    if (any(lessThan(e + swing, vec3(0.0))) && any(greaterThan(e - swing, vec3(0.0)))) return 0;
+// A sample's middle: volumes, and the height over the triangle's plane.
+struct Signs {
+    vec3 e;
+    float below;
+    float radius; // of the footprint
+};
+
+// Whether the caster may stand before some position of the sample. What holds for a ball around its footprint is decided at once; the
+// ball has room to spare, so that rounding cannot decide otherwise than position by position.
+bool may_block(Caster t, uint at, out Signs s)
+{
+    const vec4 p = records[RECORD * at];
+    s.e = volumes(t, p.xyz - t.point_0, p.xyz - t.point_1, p.xyz - t.point_2);
+    s.below = dot(t.plane, p.xyz - t.point_0);
+    s.radius = p.w;
+    if (SAMPLES == 1) return floatBitsToUint(p.w) != t.primitive && blocks_light(t, s.e, s.below);
+    const vec3 swing = t.lengths.xyz * s.radius;
+    return s.below < t.lengths.w * s.radius && !(any(lessThan(s.e + swing, vec3(0.0))) && any(greaterThan(s.e - swing, vec3(0.0))));
+}
+
+// The positions before which it stands.
+uint blocked_positions(Caster t, uint at, Signs s)
+{
+    if (SAMPLES == 1) return 1u; // may_block has decided
+    const vec4 u = records[RECORD * at + 1];
+    if (floatBitsToUint(u.w) == t.primitive) return 0;
+    const vec3 swing = t.lengths.xyz * s.radius;
+    const bool inside = all(greaterThan(s.e - swing, vec3(0.0))) || all(lessThan(s.e + swing, vec3(0.0)));
+    if (inside && !t.masked && s.below < -t.lengths.w * s.radius) return SAMPLE_BITS;
+    // volumes and height are linear over the footprint
+    const vec3 v = records[RECORD * at + 2].xyz;
+    const vec3 e_u = volumes(t, u.xyz, u.xyz, u.xyz), e_v = volumes(t, v, v, v);
+    const float below_u = dot(t.plane, u.xyz), below_v = dot(t.plane, v);
     uint bits = 0;
     for (int i = 0; i < SAMPLES; ++i) {
         const vec2 a = sub_pixel(i);
-        precise const vec3 e_i = e + a.x * e_u + a.y * e_v;
-        if (blocks_light(t, e_i, below + a.x * below_u + a.y * below_v)) bits |= 1u << i;
+        precise const vec3 e = fma(vec3(a.x), e_u, fma(vec3(a.y), e_v, s.e));
+        if (blocks_light(t, e, fma(a.x, below_u, fma(a.y, below_v, s.below)))) bits |= 1u << i;
     }
     return bits;
+}
+
+// Marks them, and gives 1 where they were the last of the sample.
+uint darken(Caster t, uint at, Signs s)
+{
+    if (SAMPLES > 1 && blocked[at] == 0xffffffffu) return 0; // as it was some time ago, which is enough
+    const uint bits = blocked_positions(t, at, s);
+    if (bits == 0) return 0;
+    const uint old = atomicOr(blocked[at], bits);
+    return old != 0xffffffffu && (old | bits) == 0xffffffffu ? 1 : 0;
+}
+
+// A count that is behind the times only costs tests.
+bool is_open(uint cell, float z)
+{
+    const uint code = cells[cell].furthest;
+    return code != 0 && z >= reach_z(code) && cells[cell].left != 0;
 }
 
 // Every sample listed in a cell is tested, and what the caster stands before is marked.
 void test_cell(Caster t, uint cell)
 {
-    // A count that is behind the times only costs tests.
-    if (cells[cell].left == 0) return;
     const uint first = cells[cell].first, end = first + cells[cell].count;
     uint darkened = 0;
     for (uint at = first; at < end; ++at) {
-        const uint bits = blocked_positions(t, at);
-        if (bits == 0) continue;
-        const uint old = atomicOr(blocked[at], bits);
-        if (old != 0xffffffffu && (old | bits) == 0xffffffffu) ++darkened;
+        Signs s;
+        if (may_block(t, at, s)) darkened += darken(t, at, s);
     }
     if (darkened != 0) atomicAdd(cells[cell].left, -darkened);
 }

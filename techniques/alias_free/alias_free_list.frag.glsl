@@ -22,9 +22,11 @@ void main()
     if (place.x == NOWHERE) return;
     const ViewSample s = view_sample(depth_image, normal_image, gl_FragCoord.xy);
     const uint at = cells[place.x].first + place.y;
-    records[RECORD * at] = vec4(s.p, uintBitsToFloat(texelFetch(primitive_image, ivec2(gl_FragCoord.xy), 0).x));
+    const float primitive = uintBitsToFloat(texelFetch(primitive_image, ivec2(gl_FragCoord.xy), 0).x);
+    // positions lie within half of u and v of the middle
+    records[RECORD * at] = vec4(s.p, SAMPLES == 1 ? primitive : 0.5 * (length(s.u) + length(s.v)));
     if (SAMPLES > 1) {
-        records[RECORD * at + 1] = vec4(s.u, 0.0);
+        records[RECORD * at + 1] = vec4(s.u, primitive);
         records[RECORD * at + 2] = vec4(s.v, 0.0);
     }
     blocked[at] = s.blocked;

@@ -17,7 +17,16 @@ layout(set = 2, binding = 0) uniform sampler2D textures[];
 
 // Casters of few cells are tested here, where a triangle costs a third of its three vertices; the others are left to the rasteriser,
 // which spreads one over many invocations. Where there is no room left for those they are tested here all the same.
-const int narrow = 16;
+const int narrow = 64;
+
+void test_cells(Caster t, float z, uint base, uint side, ivec2 from, ivec2 to)
+{
+    for (int y = from.y; y <= to.y; ++y)
+        for (int x = from.x; x <= to.x; ++x) {
+            const uint cell = base + uint(y) * side + uint(x);
+            if (is_open(cell, z)) test_cell(t, cell);
+        }
+}
 
 void main()
 {
@@ -43,6 +52,7 @@ void main()
     edge_plane(p[2], p[0], t.normal_1, t.point_1);
     edge_plane(p[0], p[1], t.normal_2, t.point_2);
 
+    t.lengths = vec4(length(t.normal_0), length(t.normal_1), length(t.normal_2), length(t.plane));
     for (uint k = 0; k < c.grid.levels; ++k) {
         if (used[k * 8 + layer_index] == 0) continue;
         const GridLevel level = c.grid.level[k];
@@ -59,12 +69,6 @@ void main()
                 continue;
             }
         }
-        const uint base = layer_index * c.grid.cells + level.first;
-        for (int y = from.y; y <= to.y; ++y)
-            for (int x = from.x; x <= to.x; ++x) {
-                const uint cell = base + uint(y) * level.side + uint(x);
-                const uint code = cells[cell].furthest;
-                if (code != 0 && s.z >= reach_z(code)) test_cell(t, cell);
-            }
+        test_cells(t, s.z, layer_index * c.grid.cells + level.first, level.side, from, to);
     }
 }

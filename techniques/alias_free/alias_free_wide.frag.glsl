@@ -21,7 +21,8 @@ void main()
     const ivec2 xy = ivec2(gl_FragCoord.xy - level.corner);
     if (any(lessThan(gl_FragCoord.xy, level.corner)) || any(greaterThanEqual(xy, ivec2(level.side)))) return; // another level's cell
     const uint primitive = instances[ids.y].first_primitive + ids.z;
-    const Caster t = Caster(edge_normal[0], edge_normal[1], edge_normal[2], edge_point[0], edge_point[1], edge_point[2], plane_normal, primitive,
-        ids.y, ids.z, ids.w != 0);
-    test_cell(t, (ids.x & 7u) * c.grid.cells + level.first + uint(xy.y) * level.side + uint(xy.x));
+    const Caster t = Caster(edge_normal[0], edge_normal[1], edge_normal[2], edge_point[0], edge_point[1], edge_point[2], plane_normal,
+        vec4(length(edge_normal[0]), length(edge_normal[1]), length(edge_normal[2]), length(plane_normal)), primitive, ids.y, ids.z, ids.w != 0);
+    const uint cell = (ids.x & 7u) * c.grid.cells + level.first + uint(xy.y) * level.side + uint(xy.x);
+    if (cells[cell].left != 0) test_cell(t, cell);
 }

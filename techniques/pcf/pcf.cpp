@@ -3,7 +3,7 @@
 #include "techniques/pcf/pcf.shared.h"
 
 #include "shadow/light_constants.h"
-#include "shadow/parts/light_map.h"
+#include "shadow/parts/bias.h"
 #include "shadow/parts/sample_patterns.h"
 #include "shadow/technique.h"
 
@@ -31,26 +31,13 @@ void describe(Params& p, Fields& fields)
         "interleave", p.interleave, {"1", "2", "4"}, "Splits a disk's taps over k x k pixels, and averages those of one surface.");
     fields.flag("adaptive", p.adaptive, "A few outer taps come first, and decide where they agree.");
     fields.choice("window", p.window, {"fixed", "footprint"}, "Footprint: the filter is at least as wide as the pixel is in the map.");
-    fields.choice("bias", p.bias, {"slope", "receiver_plane", "cone"},
-        "Against self-shadowing: polygon offset of the casters, the receiver's plane at every texel, or a depth that grows with distance.");
-    fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
-    fields.real(
-        "bias_slope", p.bias_slope, {0, 8}, "", "slope: polygon offset, times the depth slope, times twice the filter's radius in texels.");
-    fields.real("bias_cone", p.bias_cone, {0, 64}, "",
-        "cone: metres of depth a metre between tap and receiver, where the receiver's own slope is less.");
-    fields.real(
-        "slope_limit", p.slope_limit, {0, 1000}, "", "receiver_plane, cone: the steepest receiver followed, metres of depth a metre.");
+    parts::describe_bias(fields, p.bias, false);
 }
 
 bool is_disk(const Params& p) { return p.form == PCF_POISSON || p.form == PCF_VOGEL; }
 
-/// Texels between the receiver and the farthest one read.
-float reach(const Params& p, int kernel)
-{
-    const float half = 0.5f * float(kernel);
-    if (is_disk(p)) return half + 1.0f;
-    return half + (p.form == PCF_BICUBIC ? 1.5f : p.bilinear ? 0.5f : 0.0f);
-}
+/// Texels between the farthest one read and half of the filter's width.
+float beyond(const Params& p) { return is_disk(p) ? 1.0f : p.form == PCF_BICUBIC ? 1.5f : p.bilinear ? 0.5f : 0.0f; }
 
 class Pcf final : public TechniqueWith<Params> {
 public:
@@ -67,13 +54,12 @@ private:
             .params = params,
             .kernel = parts::filter_width(params.kernel, params.map_size),
             .groups = is_disk(params) ? 1 << params.interleave : 1};
+        c.beyond = beyond(params);
         c.largest = params.window ? parts::filter_width(PCF_MAX_KERNEL, params.map_size) : c.kernel;
         set_taps(c);
-        const parts::LightMap map = parts::draw_light_map(passes, frame,
-            {.size = params.map_size,
-                .fitting = params.fitting,
-                .slope_bias = params.bias == PCF_BIAS_SLOPE ? params.bias_slope * 2.0f * reach(params, c.kernel) : 0.0f,
-                .guard_texels = reach(params, c.largest) + 1.0f});
+        const parts::LightMap map = parts::draw_biased_map(passes, frame,
+            {.size = params.map_size, .fitting = params.fitting, .guard_texels = 0.5f * float(c.largest) + c.beyond + 1.0f}, params.bias,
+            0.5f * float(c.kernel) + c.beyond);
         c.map = map.constants;
         const bool noise = is_disk(params) && params.rotation == parts::rotate_blue_noise;
         if (noise && !noise_) noise_ = parts::blue_noise(device_);
@@ -85,7 +71,7 @@ private:
             target = passes.transient(part);
         }
         const uint32_t unrolled = !params.window && !is_disk(params) && c.kernel <= 9 ? uint32_t(c.kernel) : 0;
-        const gpu::SpecConstant modes[] = {{0, uint32_t(params.form)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.bias)},
+        const gpu::SpecConstant modes[] = {{0, uint32_t(params.form)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.bias.kind)},
             {3, uint32_t(params.rotation)}, {4, uint32_t(params.adaptive)}, {5, uint32_t(params.window)}, {6, unrolled}};
         passes.fullscreen({.name = "resolve",
             .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/pcf/pcf_resolve.frag", modes),

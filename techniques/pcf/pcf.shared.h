@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef GNOMON_PCF_SHARED_H
 #define GNOMON_PCF_SHARED_H
+#include "shaders/bias.shared.h"
 #include "shaders/frame.shared.h"
 #include "shaders/light_map.shared.h"
 
@@ -9,9 +10,6 @@
 #define PCF_BICUBIC 2
 #define PCF_POISSON 3
 #define PCF_VOGEL 4
-#define PCF_BIAS_SLOPE 0
-#define PCF_BIAS_RECEIVER_PLANE 1
-#define PCF_BIAS_CONE 2
 #define PCF_MAX_KERNEL 127
 #define PCF_MAX_TAPS 128
 
@@ -28,11 +26,7 @@ struct Params {
     int interleave DEFAULT(0);
     int adaptive DEFAULT(0);
     int window DEFAULT(0);
-    int bias DEFAULT(2);
-    float bias_constant DEFAULT(0.0f);
-    float bias_slope DEFAULT(0.75f);
-    float bias_cone DEFAULT(2.0f);
-    float slope_limit DEFAULT(16.0f);
+    BiasParams bias;
 };
 
 struct ResolveConstants {
@@ -41,6 +35,7 @@ struct ResolveConstants {
     LightMap map;
     Params params;
     int kernel; ///< the parameter, held to the map
+    float beyond; ///< texels that a filter reads past its half width
     int largest; ///< no window is wider
     int groups; ///< pixels a side that share the taps
     int taps; ///< used in disk: a multiple of groups * groups

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/bias.glsl"
 #include "shaders/hard_receiver.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/percentage_closer.glsl"
@@ -14,7 +15,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 
 layout(constant_id = 0) const int form = PCF_BOX;
 layout(constant_id = 1) const bool bilinear = true;
-layout(constant_id = 2) const int bias = PCF_BIAS_CONE;
+layout(constant_id = 2) const int bias = BIAS_CONE;
 layout(constant_id = 3) const int rotation = ROTATE_NONE;
 layout(constant_id = 4) const bool adaptive = false;
 layout(constant_id = 5) const bool footprint = false;
@@ -39,15 +40,6 @@ float footprint_texels(LightMapLayer layer, Receiver r, vec2 at)
     return longest;
 }
 
-ReceiverPlane make_plane(LightMapLayer layer, Receiver r, MapPoint m, float radius)
-{
-    if (bias == PCF_BIAS_RECEIVER_PLANE)
-        return receiver_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
-    if (bias == PCF_BIAS_CONE)
-        return cone_plane(layer, c.map.size, c.map.depth_step, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit);
-    return flat_plane(layer, c.map.size, c.map.depth_step, m);
-}
-
 // Taps of the disk; with groups, those of this pixel's group alone: every group has taps of all radii.
 float disk_filter(int layer_index, ReceiverPlane plane, float radius)
 {
@@ -58,26 +50,25 @@ float disk_filter(int layer_index, ReceiverPlane plane, float radius)
     const int count = c.taps / stride, probes = adaptive ? min(8, count) : count;
     float sum = 0.0;
     for (int i = 0; i < probes; ++i)
-        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == PCF_BIAS_CONE);
+        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == BIAS_CONE);
     if (!adaptive || sum == 0.0 || sum == float(probes)) return sum / float(probes);
     for (int i = probes; i < count; ++i)
-        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == PCF_BIAS_CONE);
+        sum += compare_tap(map_image, layer_index, plane, turned * c.disk[i * stride + first], texel, bilinear, bias == BIAS_CONE);
     return sum / float(count);
 }
 
 float lit_in_layer(Receiver r, int index)
 {
-    const LightMapLayer layer = c.map.layers[index];
-    MapPoint m = project(layer, r.p_world);
-    if (!m.inside) return 1.0;
-    m.depth -= c.params.bias_constant;
-
+    const LightMapLayer layer = layer_at(c.map.layers[index], r.p_world);
     int n = small_kernel > 0 ? small_kernel : c.kernel;
-    if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, m.uv * c.map.size))), n, c.largest);
-    const ReceiverPlane plane = make_plane(layer, r, m, 0.5 * float(n) + 2.0);
+    if (footprint) n = clamp(int(ceil(footprint_texels(layer, r, project(layer, r.p_world).uv * c.map.size))), n, c.largest);
+    bool inside;
+    const ReceiverPlane plane = biased_plane(bias, c.params.bias, layer, c.map.size, c.map.depth_step, c.light, r.p_world, r.n_geometric,
+        0.5 * float(n) + c.beyond, inside);
+    if (!inside) return 1.0;
     if (form == PCF_POISSON || form == PCF_VOGEL) return disk_filter(index, plane, 0.5 * float(n));
     const int reconstruct = form == PCF_BICUBIC ? RECONSTRUCT_BICUBIC : bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST;
-    return separable_filter(map_image, index, plane, n, form == PCF_GAUSSIAN, reconstruct, bias == PCF_BIAS_CONE, adaptive);
+    return separable_filter(map_image, index, plane, n, form == PCF_GAUSSIAN, reconstruct, bias == BIAS_CONE, adaptive);
 }
 
 void main()

@@ -83,7 +83,7 @@ float sums_window(LightMapLayer layer, SoftPoint p, vec2 half_size)
 
 float soft_visibility(SoftPoint p)
 {
-    const LightMapLayer layer = c.soft.map.layers[p.layer];
+    const LightMapLayer layer = layer_at(c.soft.map.layers[p.layer], p.receiver.p_world);
     const MapPoint m = project(layer, p.receiver.p_world);
     if (all(equal(p.light, vec2(0.0)))) {
         const vec2 texel = 1.0 / vec2(textureSize(map_image, 0).xy);

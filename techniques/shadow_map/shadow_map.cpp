@@ -3,7 +3,7 @@
 #include "techniques/shadow_map/shadow_map.shared.h"
 
 #include "shadow/light_constants.h"
-#include "shadow/parts/light_map.h"
+#include "shadow/parts/bias.h"
 #include "shadow/technique.h"
 
 #include <cstddef>
@@ -20,12 +20,7 @@ void describe(Params& p, Fields& fields)
     fields.choice("depth", p.depth, {"d32", "d16"}, "Depth format: 32-bit float or 16-bit fixed point.");
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block by the hardware instead of taking the nearest texel.");
-    fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
-    fields.real("bias_slope", p.bias_slope, {0, 8}, "",
-        "Polygon offset of the casters: times the depth slope, times twice the filter's radius in texels.");
-    fields.real("normal_offset", p.normal_offset, {0, 16}, "texels",
-        "Distance by which a receiver is moved along its normal, times the sine of the light's angle.");
-    fields.choice("cull", p.cull, {"none", "back", "front"}, "Which faces of the casters are left out of the map.");
+    parts::describe_bias(fields, p.bias, true);
     fields.choice("culling", p.culling, {"none", "frustum", "receivers"},
         "Which instances are not drawn: none; those outside of a layer; or, under a sun, all that lie between it and no receiver that is "
         "seen. "
@@ -42,31 +37,32 @@ public:
 private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        constexpr VkCullModeFlags cull[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_BACK_BIT, VK_CULL_MODE_FRONT_BIT};
         // A tap reads its own texel, and one further half when it is bilinear.
-        const float radius = 0.5f * float(params.pcf - 1) + (params.bilinear ? 1.0f : 0.5f);
-        const parts::LightMap map = parts::draw_light_map(passes, frame,
-            {.size = params.map_size,
-                .fitting = params.fitting,
-                .format = parts::DepthFormat(params.depth),
-                .slope_bias = params.bias_slope * 2.0f * radius,
-                .cull = cull[params.cull],
-                .culling = parts::Culling(params.culling),
-                .offset_texels = params.normal_offset,
-                .guard_texels = radius + 1.0f});
-        const gpu::SpecConstant pcf[] = {{0, uint32_t(params.pcf)}};
+        const float reach = 0.5f * float(params.pcf - 1) + (params.bilinear ? 1.0f : 0.5f);
+        const parts::LightMapSettings settings{.size = params.map_size,
+            .fitting = params.fitting,
+            .format = parts::DepthFormat(params.depth),
+            .culling = parts::Culling(params.culling),
+            .guard_texels = reach + 1.0f};
+        const parts::LightMap map = parts::draw_biased_map(passes, frame, settings, params.bias, reach);
+        const bool by_id = params.bias.kind == BIAS_IDS;
+        if (by_id && !starts_) starts_ = parts::instance_starts(device_, frame.scene);
+        const gpu::ImageId ids = by_id ? parts::draw_light_ids(passes, frame, map, settings) : frame.gbuffer.primitive;
+        const gpu::SpecConstant modes[] = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bias.kind)}, {2, uint32_t(params.bilinear)}};
         passes.fullscreen({.name = "resolve",
-            .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", pcf),
+            .program = &device_.raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", modes),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
-                gpu::Binding(map.depth, gpu::Use::sample, params.bilinear ? gpu::Sampler::compare_linear : gpu::Sampler::compare_nearest)
-                    .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
+                gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {frame.gbuffer.primitive, gpu::Use::sample},
+                gpu::Binding(ids, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+                {passes.import(by_id ? starts_ : frame.resources.instances()), gpu::Use::load}},
             .constants = parts::with_map(ResolveConstants{view_constants(frame.view, frame.index),
-                                             light_constants(frame.light, frame.resources.bounds()), map.constants, params},
+                                             light_constants(frame.light, frame.resources.bounds()), map.constants, params, reach},
                 map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
 
     gpu::Device& device_;
+    gpu::Buffer starts_; ///< made when first asked for
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef GNOMON_SHADOW_MAP_SHARED_H
 #define GNOMON_SHADOW_MAP_SHARED_H
+#include "shaders/bias.shared.h"
 #include "shaders/frame.shared.h"
 #include "shaders/light_map.shared.h"
 
@@ -12,10 +13,7 @@ struct Params {
     int depth DEFAULT(0);
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
-    float bias_constant DEFAULT(0.0f);
-    float bias_slope DEFAULT(0.75f);
-    float normal_offset DEFAULT(0.0f);
-    int cull DEFAULT(0);
+    BiasParams bias;
     int culling DEFAULT(1);
 };
 
@@ -24,6 +22,7 @@ struct ResolveConstants {
     Light light;
     LightMap map;
     Params params;
+    float reach; ///< texels between a receiver and the farthest centre of one that is read
 };
 
 SHARED_END

@@ -33,6 +33,8 @@ void describe(Params& p, Fields& fields)
     fields.integer("pcf", p.pcf, {1, 15}, "taps", "Percentage-closer filter of n x n comparisons, one texel apart; 1 = none.");
     fields.flag("bilinear", p.bilinear, "Each comparison blends a 2 x 2 block instead of taking the nearest texel.");
     fields.real("bias_constant", p.bias_constant, {0, 1}, "m", "Depth by which a receiver is moved towards the light.");
+    fields.real("bias_cone", p.bias_cone, {0, 64}, "",
+        "Depth by which a texel may lie before the receiver, metres for each metre between them; 0: the receiver's plane alone.");
     fields.real(
         "slope_limit", p.slope_limit, {0, 1000}, "", "The steepest receiver whose plane the filter follows, metres of depth a metre.");
     fields.flag("cache", p.cache, "Pages are kept from frame to frame; off: all are drawn anew. The picture is the same.");
@@ -168,7 +170,8 @@ void VirtualShadowMap::draw(gpu::PassList& passes, const Frame& frame, const Wor
 
 void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const Params& params, const Work& w, gpu::ImageId wanted)
 {
-    const gpu::SpecConstant modes[] = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.show)}};
+    const gpu::SpecConstant modes[]
+        = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.show)}, {3, uint32_t(params.bias_cone > 0.0f)}};
     passes.fullscreen({.name = "resolve",
         .program
         = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_resolve.frag", modes),

@@ -22,7 +22,8 @@ struct Params {
     int pcf DEFAULT(3);
     int bilinear DEFAULT(1);
     float bias_constant DEFAULT(0.0f);
-    float slope_limit DEFAULT(64.0f);
+    float bias_cone DEFAULT(1.0f);
+    float slope_limit DEFAULT(16.0f);
     int cache DEFAULT(1);
     int show DEFAULT(0);
 };

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/hard_receiver.glsl"
 #include "shaders/light_map.glsl"
+#include "shaders/texel_footprint.glsl"
 #include "techniques/virtual_shadow_map/virtual_shadow_map.shared.h"
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
@@ -14,13 +15,6 @@ layout(set = 1, binding = 0, scalar) uniform Constants { RequestConstants c; };
 
 layout(location = 0) out float wanted; // the level, between levels
 
-// Change of uv by a step in the world.
-vec2 uv_step(LightMapLayer layer, vec4 h, vec3 d)
-{
-    const vec4 hd = layer.map_from_world * vec4(d, 0.0);
-    return (hd.xy * h.w - h.xy * hd.w) / (h.w * h.w);
-}
-
 void main()
 {
     wanted = 0.0;
@@ -29,17 +23,12 @@ void main()
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, known)) return;
     const int face = c.grid.layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(c.grid.centre, mat3(1.0), r.p_world) : 0;
     const LightMapLayer layer = c.grid.face[face];
-    const vec4 h = layer.map_from_world * vec4(r.p_world, 1.0);
-    // d(uv) / d(pixel) on the receiver's plane; hardware derivatives would mix two surfaces at every edge
-    const vec2 across = uv_step(layer, h, beside_on_plane(c.view, r.p_world, r.n_geometric, gl_FragCoord.xy, gl_FragCoord.xy + vec2(1.0, 0.0)) - r.p_world);
-    const vec2 down = uv_step(layer, h, beside_on_plane(c.view, r.p_world, r.n_geometric, gl_FragCoord.xy, gl_FragCoord.xy + vec2(0.0, 1.0)) - r.p_world);
-    // its inverse's columns are the sides of a texel in pixels; here those of a map of one texel
-    const float det = abs(across.x * down.y - across.y * down.x);
-    const float longer = max(length(vec2(across.y, down.y)), length(vec2(across.x, down.x))) / max(det, 1e-30);
+    // a texel's longer side, of the coarsest level
+    const float longer = longer_edge(texel_footprint(c.view, layer, float(c.grid.page), r.p_world, r.n_geometric).total);
     const float sine = dot(r.n_geometric, to_light(c.light, r.p_world).xyz);
-    const float level = log2(min(1.0, sine / max(c.least_sine, 1e-6)) * longer / (float(c.grid.page) * c.footprint));
+    const float level = log2(min(1.0, sine / max(c.least_sine, 1e-6)) * longer / c.footprint);
     wanted = level > 0.0 ? min(level, 30.0) : 0.0; // also where it is not a number
-    const vec2 uv = h.xy / h.w;
+    const vec2 uv = project(layer, r.p_world).uv;
     const int chosen = level_for(wanted, uv);
     const uint entry = entry_of(face, chosen, page_at(uv, chosen));
     marks[entry] = 1u;

@@ -18,6 +18,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ResolveConstants c; };
 layout(constant_id = 0) const int pcf = 3;
 layout(constant_id = 1) const bool bilinear = true;
 layout(constant_id = 2) const int show = 0;
+layout(constant_id = 3) const bool coned = true;
 
 layout(location = 0) out float visibility;
 
@@ -26,7 +27,7 @@ void main()
     Receiver r;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int face = c.grid.layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(c.grid.centre, mat3(1.0), r.p_world) : 0;
-    LightMapLayer layer = c.grid.face[face];
+    const LightMapLayer layer = c.grid.face[face];
     MapPoint m = project(layer, r.p_world);
     const float wanted = texelFetch(wanted_image, ivec2(gl_FragCoord.xy), 0).r;
     const int level = max(level_for(wanted, m.uv) - int(counts.coarser), 0);
@@ -43,12 +44,13 @@ void main()
 
     // the page's texels are those of a map of this size
     const float size = float(c.grid.page << level);
-    layer.texel_metres /= float(1 << level);
+    m.texel /= float(1 << level);
     m.depth -= c.params.bias_constant;
     const float radius = 0.5 * float(pcf) + 1.0;
-    ReceiverPlane plane = receiver_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
+    ReceiverPlane plane = coned ? cone_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, c.params.bias_cone, c.params.slope_limit)
+                                : receiver_plane(layer, size, 0.0, m, r.p_world, r.n_geometric, radius, c.params.slope_limit);
     // far from the axes' origin, coordinates round to more of a fine texel than the rasteriser's snapping does
-    plane.z += (abs(plane.slope.x) + abs(plane.slope.y)) * size * max(abs(m.uv.x), abs(m.uv.y)) * 1.2e-7;
+    plane.z += (abs(plane.slope.x) + abs(plane.slope.y) + plane.cone) * size * max(abs(m.uv.x), abs(m.uv.y)) * 1.2e-7;
     plane.at -= first_texel(page, level) - float(c.grid.border);
-    visibility = separable_filter(pool_image, slot, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, false, false);
+    visibility = separable_filter(pool_image, slot, plane, pcf, false, bilinear ? RECONSTRUCT_BILINEAR : RECONSTRUCT_NEAREST, coned, false);
 }

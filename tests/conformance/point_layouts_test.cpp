@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every technique with a light map, with four wide layers around a point light instead of a cube's six.
+// Every technique with a light map, with a tetrahedron's or two paraboloids' layers around a point light instead of a cube's.
 #include "lab/compare.h"
 
 #include <gtest/gtest.h>
@@ -56,25 +56,31 @@ TEST_P(PointLayouts, NoSeamIsSeenFromTheLight)
             return count;
         };
         // what a cube of such texels leaves are the edges of the things in the box
-        EXPECT_LE(dark(":map_size=1024:point_layout=tetrahedron"), 2 * dark(":map_size=433:point_layout=cube") + 25) << target;
+        const size_t cube = dark(":map_size=433:point_layout=cube");
+        EXPECT_LE(dark(":map_size=1024:point_layout=tetrahedron"), 2 * cube + 25) << target;
+        EXPECT_LE(dark(":map_size=1024:point_layout=dual_paraboloid"), 2 * cube + 25) << target;
     }
 }
 
-TEST_P(PointLayouts, ATetrahedronIsAsNearToTheTruthAsACubeOfItsTexels)
+TEST_P(PointLayouts, OthersAreAsNearToTheTruthAsACubeOfTheirTexels)
 {
     const std::string id(GetParam()->id);
     lab::CompareOptions options;
     options.stage = {.scene = "contact",
         .lights = {GetParam()->soft ? "point,position=1.5/3.2/1.8,radius=0.2" : "point,position=1.5/3.2/1.8,radius=0"},
         .size = {240, 135}};
-    options.techniques = {id + ":map_size=400:point_layout=cube", id + ":map_size=944:point_layout=tetrahedron"};
+    options.techniques = {id + ":map_size=400:point_layout=cube", id + ":map_size=944:point_layout=tetrahedron",
+        id + ":map_size=944:point_layout=dual_paraboloid"};
     options.truth_samples = GetParam()->soft ? 16 : 1;
     options.repeats = 1;
     const lab::Comparison result = lab::compare(*device_, options);
-    ASSERT_EQ(result.runs.size(), 2u);
-    const double cube = result.runs[0].metrics.at("mae"), tetrahedron = result.runs[1].metrics.at("mae");
+    ASSERT_EQ(result.runs.size(), 3u);
+    const double cube = result.runs[0].metrics.at("mae"), tetrahedron = result.runs[1].metrics.at("mae"),
+                 paraboloids = result.runs[2].metrics.at("mae");
     RecordProperty("cube", std::to_string(cube));
     RecordProperty("tetrahedron", std::to_string(tetrahedron));
+    RecordProperty("paraboloids", std::to_string(paraboloids));
+    EXPECT_LT(paraboloids, 1.2 * cube + 0.001);
     EXPECT_LT(tetrahedron, 1.2 * cube + 0.001);
     EXPECT_GT(tetrahedron, 0.0);
 }

@@ -12,7 +12,7 @@ extern const gnomon::shadow::TechniqueInfo technique_pcf;
 namespace gnomon {
 namespace {
 
-constexpr double receiver_plane = 1, smooth = 1;
+constexpr double receiver_plane = 3, smooth = 1;
 
 class BlurredDepth : public gpu::TechniqueTest {
 protected:

@@ -17,7 +17,7 @@ void main()
     const int index = select_layer(cases[i].map.layout_kind, cases[i].map.centre, cases[i].map.axes, cases[i].map.splits, p);
     const Layers layers
         = select_layers(cases[i].map.layout_kind, cases[i].map.centre, cases[i].map.axes, cases[i].map.splits, cases[i].map.bands, p);
-    const LightMapLayer layer = cases[i].map.layers[index];
+    const LightMapLayer layer = layer_at(cases[i].map.layers[index], p);
     const MapPoint m = project(layer, p);
     const float stored = stored_from_depth(layer, m.depth);
     results[i] = MapResult(index, layers.first == index ? layers.next : -1.0, m.uv, m.z, m.depth, m.inside ? 1 : 0, stored, reference_depth(layer, m.depth, cases[i].map.depth_step), depth_from_stored(layer, stored), m.texel);

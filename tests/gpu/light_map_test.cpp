@@ -37,6 +37,8 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         }
     add(shadow::parts::fit_light_map({}, bounds, view, scene::parse_light("point,position=0.5/2/-0.5", {}, bounds),
         {.fitting = {.point_layout = int(shadow::parts::PointLayout::tetrahedron)}}));
+    add(shadow::parts::fit_light_map({}, bounds, view, scene::parse_light("point,position=0.5/2/-0.5", {}, bounds),
+        {.fitting = {.point_layout = int(shadow::parts::PointLayout::dual_paraboloid)}}));
     const auto results = gpu::run_glsl_cases<shaders::MapResult>(device(), "tests/gpu/light_map.comp", cases);
     size_t inside = 0, in_bands = 0, warped = 0;
     for (size_t i = 0; i < cases.size(); ++i) {
@@ -47,7 +49,8 @@ TEST_F(LightMapShader, ProjectsAsItsTwin)
         ASSERT_NEAR(double(r.next), tests::next_share(map, cases[i].p_world), 1e-4);
         in_bands += r.next > 0.0f ? 1 : 0;
         const shaders::LightMapLayer& layer = map.layers[r.layer];
-        const tests::MapPoint m = tests::project(layer, cases[i].p_world);
+        const tests::MapPoint m
+            = layer.warped == 2 ? tests::project_paraboloid(map, r.layer, cases[i].p_world) : tests::project(layer, cases[i].p_world);
         ASSERT_NEAR(double(r.depth), m.depth, 1e-5 * double(layer.far));
         ASSERT_EQ(r.inside != 0, m.inside);
         inside += r.inside;

@@ -24,7 +24,7 @@ protected:
     }
 };
 
-constexpr double box = 0, poisson = 3, vogel = 4, receiver_plane = 1, cone = 2;
+constexpr double box = 0, poisson = 3, vogel = 4, receiver_plane = 3, cone = 4;
 
 TEST_F(Pcf, TiltedPlanesDoNotShadowThemselves)
 {
@@ -38,7 +38,8 @@ TEST_F(Pcf, TiltedPlanesDoNotShadowThemselves)
             for (const double form : {box, vogel})
                 for (const double kernel : {1.0, 9.0, 127.0}) {
                     if (form == box && kernel > 9) continue; // 4096 gathers a pixel
-                    const Values values{{"bias", bias}, {"bias_cone", 0}, {"form", form}, {"kernel", kernel}, {"fit", 0}};
+                    const Values values{
+                        {"bias", bias}, {"bias_scale", bias == cone ? 0.0 : 1.0}, {"form", form}, {"kernel", kernel}, {"fit", 0}};
                     const bool spot = light[0] == 's' && light[1] == 'p';
                     size_t dark = 0;
                     const std::vector<float> got = draw(s, camera, {96, 64}, light, values);

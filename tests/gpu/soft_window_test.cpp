@@ -20,11 +20,10 @@ class SoftWindow : public gpu::DeviceTest {
 protected:
     static constexpr Bounds bounds{{-4, 0, -4}, {4, 4, 4}};
 
-    static shaders::LightMap map_of(const Light& light)
+    static shaders::LightMap map_of(const Light& light, shadow::parts::Fit fit = shadow::parts::Fit::uniform)
     {
         const scene::View view = scene::make_view({"", {4, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.4f}, {320, 200}, bounds);
-        return shadow::parts::fit_light_map(
-            {}, bounds, view, light, {.size = 512, .fitting = {.fit = int(shadow::parts::Fit::uniform)}, .guard_texels = 65});
+        return shadow::parts::fit_light_map({}, bounds, view, light, {.size = 512, .fitting = {.fit = int(fit)}, .guard_texels = 65});
     }
 
     static std::vector<shaders::SoftResult> run(const std::vector<shaders::SoftCase>& cases)
@@ -137,6 +136,7 @@ TEST_F(SoftWindow, TheWindowIsWhatThePyramidCutsOut)
     std::vector<shaders::SoftCase> cases;
     std::vector<Light> of;
     std::vector<shaders::LightMap> maps;
+    int warped_cases = 0;
     for (int i = 0; i < 40; ++i)
         for (const Light& light : lights({uniform(-1, 1), uniform(3, 5), uniform(-1, 1)}, glm::normalize(vec3(0.3f, -1, 0.2f)), 0.05f)) {
             const shaders::LightMap map = map_of(light);
@@ -146,7 +146,17 @@ TEST_F(SoftWindow, TheWindowIsWhatThePyramidCutsOut)
             const float d = glm::dot(layer.depth_plane, vec4(p, 1));
             cases.push_back({layer, shadow::light_constants(light, bounds), p, vec3(0, 1, 0), d - uniform(0.0f, 0.7f) * (d - layer.near)});
             of.push_back(light), maps.push_back(map);
+            for (const auto fit : {shadow::parts::Fit::lispsm, shadow::parts::Fit::psm}) {
+                const shaders::LightMap warped = map_of(light, fit);
+                if (warped.layers[0].warped == 0 || !tests::project(warped.layers[0], p).inside) continue;
+                cases.push_back(cases.back());
+                cases.back().layer = warped.layers[0];
+                const float depth = glm::dot(warped.layers[0].depth_plane, vec4(p, 1));
+                cases.back().z = depth - uniform(0.0f, 0.7f) * (depth - warped.layers[0].near);
+                of.push_back(light), maps.push_back(warped), ++warped_cases;
+            }
         }
+    EXPECT_GT(warped_cases, 20);
     const auto results = run(cases);
     for (size_t i = 0; i < cases.size(); ++i) {
         const shaders::SoftCase& c = cases[i];
@@ -163,9 +173,10 @@ TEST_F(SoftWindow, TheWindowIsWhatThePyramidCutsOut)
         }
         farthest *= maps[i].size;
         // of points within the outermost of 64 cells; rays that meet instead of running in parallel bend it by the light's size over its
-        // distance
+        // distance, and warps bend it by as much as their w changes over it
         for (int axis_index = 0; axis_index < 2; ++axis_index)
-            ASSERT_NEAR(double(results[i].window[axis_index]), farthest[axis_index], 0.06 * farthest[axis_index] + 0.02)
+            ASSERT_NEAR(
+                double(results[i].window[axis_index]), farthest[axis_index], (c.layer.warped ? 0.12 : 0.06) * farthest[axis_index] + 0.02)
                 << scene::kind_name(of[i].kind()) << " " << i;
     }
 }

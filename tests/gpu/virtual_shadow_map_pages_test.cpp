@@ -53,7 +53,7 @@ struct Twin {
         const dvec3 eye(view.eye), forward(view.forward), ray = glm::normalize(p - eye);
         const dvec3 across = (near_b - near_a) * (glm::dot(p - eye, forward) / glm::dot(near_a - eye, forward));
         double facing = glm::dot(n, ray);
-        if (std::abs(facing) < 0.02) facing = facing < 0 ? -0.02 : 0.02;
+        if (std::abs(facing) < 1e-6) facing = 1e-6;
         return across - ray * (glm::dot(n, across) / facing);
     }
 

@@ -185,6 +185,22 @@ TEST_F(VirtualShadowMaps, MovedObjectRedrawsThePagesThatItTouches)
     }
 }
 
+TEST_F(VirtualShadowMaps, DeformedMeshRedrawsItsPages)
+{
+    scene::Scene before = gpu::half_shadowed(), after = before;
+    after.meshes[1].positions[2].y += 0.4f;
+    after.meshes[1].bounds.add(after.meshes[1].positions[2]);
+    const scene::Camera camera{.eye = {0, 5, 8}, .target = {0, 0, 0}};
+    shadow::SceneGpu scene_before(device(), before), scene_after(device(), after);
+    const scene::Light light = light_of(lights[0], before.bounds());
+    VirtualSession cached = session({{"footprint", 0.2}}), fresh = session({{"footprint", 0.2}});
+    const VirtualFrame first = cached.draw(scene_before, camera, light, small);
+    const VirtualFrame got = cached.draw(scene_after, camera, light, small), want = fresh.draw(scene_after, camera, light, small);
+    EXPECT_EQ(got.image, want.image);
+    EXPECT_NE(got.image, first.image);
+    EXPECT_GT(got.counts.kept, 0u);
+}
+
 TEST_F(VirtualShadowMaps, AnotherSceneOrLightForgetsAllPages)
 {
     const scene::Scene a = gpu::half_shadowed();

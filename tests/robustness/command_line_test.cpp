@@ -80,7 +80,7 @@ TEST(CommandLine, ValuesOutOfRangeStateTheRange)
     expect_all({
         {{"render", "balls", "--shadow_map.pcf", "99"}, 1, {"'pcf'", "1 to 15", "99"}},
         {{"render", "balls", "--shadow_map.map_size=15"}, 1, {"'map_size'", "16 to 8192"}},
-        {{"render", "balls", "--shadow_map.normal_offset", "nan"}, 1, {"'normal_offset'", "0 to 16"}},
+        {{"render", "balls", "--shadow_map.bias_scale", "nan"}, 1, {"'bias_scale'", "0 to 64"}},
         {{"render", "balls", "--samples", "0"}, 2, {"--samples", "1 to 4096"}},
         {{"slice", "balls", "--centre", "1/2"}, 1, {"--centre", "1/2"}},
         {{"slice", "balls", "--right", "0/1/0"}, 1, {"axes", "plane"}},

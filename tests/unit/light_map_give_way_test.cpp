@@ -86,6 +86,16 @@ TEST(FitGivesWay, UnwarpedFitsAreThoseBeneath)
     EXPECT_EQ(plain(Fit::cascades_warped), Fit::cascades);
 }
 
+TEST(SpotFit, HasNoCascades)
+{
+    const char* light = "spot,position=16/7/6,target=0/0/4,cone=80";
+    const auto same = [&](Fit a, Fit b) { return fitted(a, light).layers[0].map_from_world == fitted(b, light).layers[0].map_from_world; };
+    EXPECT_TRUE(same(Fit::cascades, Fit::focused));
+    EXPECT_TRUE(same(Fit::sdsm, Fit::focused));
+    EXPECT_TRUE(same(Fit::cascades_warped, Fit::lispsm));
+    EXPECT_FALSE(same(Fit::lispsm, Fit::focused));
+}
+
 TEST(SpotFit, CoversWhatTheViewSeesOfTheCone)
 {
     const char* light = "spot,position=0/7.5/0,target=0/0/0,cone=110";

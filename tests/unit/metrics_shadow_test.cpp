@@ -61,7 +61,8 @@ TEST(Metrics, every_metric_says_for_which_lights_it_is)
 {
     const Picture p = half(20);
     const auto hard = measure(p, p, true), soft = measure(p, p, false);
-    for (const char* id : {"wrong_pixels", "wrong_outside_band", "edge_displacement"}) {
+    for (const char* id :
+        {"wrong_pixels", "wrong_outside_band", "acne_outside_band", "leak_outside_band", "contact_gap", "edge_displacement"}) {
         EXPECT_TRUE(hard.contains(id)) << id;
         EXPECT_FALSE(soft.contains(id)) << id;
     }
@@ -120,6 +121,42 @@ TEST(Metrics, acne_and_leaks_are_told_apart_and_ranked)
     EXPECT_LT(faint.at("bias_outside"), 0.0);
     EXPECT_DOUBLE_EQ(measure(striped(false, 0.2f, 4), truth, false).at("leak"), 0.125);
     EXPECT_EQ(measure(striped(false, 0.05f, 4), truth, false).at("leak"), 0.0);
+}
+
+TEST(Metrics, acne_and_leaks_away_from_edges_add_up_to_what_is_wrong_there)
+{
+    const Picture truth = half(32);
+    const auto acne = measure(striped(true, 0.0f, 4), truth, true), leak = measure(striped(false, 1.0f, 4), truth, true);
+    EXPECT_DOUBLE_EQ(acne.at("acne_outside_band"), acne.at("wrong_outside_band"));
+    EXPECT_EQ(acne.at("leak_outside_band"), 0.0);
+    EXPECT_DOUBLE_EQ(leak.at("leak_outside_band"), 31.0 / 64 / 4);
+    EXPECT_EQ(leak.at("acne_outside_band"), 0.0);
+    EXPECT_EQ(measure(half(33), truth, true).at("acne_outside_band"), 0.0) << "an edge one pixel off is within the band";
+}
+
+TEST(Metrics, a_gap_between_shadow_and_caster_is_measured_in_pixels)
+{
+    // A shadow from column 10 on, 20 pixels wide, that begins some pixels late. Along each row there is one run, and it has the gap;
+    // along the columns, 20 runs, those of the gap's columns wholly lit: 32 of them count.
+    Picture truth(size, 1, 1.0f);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 10; x < 30; ++x) truth.at(x, y) = 0.0f;
+    double last = 0.0;
+    for (const int gap : {0, 1, 3, 6}) {
+        Picture test = truth;
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 10; x < 10 + gap; ++x) test.at(x, y) = 1.0f;
+        const double got = measure(test, truth, true).at("contact_gap");
+        EXPECT_DOUBLE_EQ(got, double(gap) * (size.height + 32) / (size.height + 20));
+        EXPECT_TRUE(gap == 0 || got > last);
+        last = got;
+    }
+    // Acne opens no gap, and neither does a shadow that grows.
+    EXPECT_EQ(measure(striped(true, 0.0f, 4), half(32), true).at("contact_gap"), 0.0);
+    EXPECT_EQ(measure(half(36), half(32), true).at("contact_gap"), 0.0);
+    EXPECT_EQ(measure(Picture(size, 1), Picture(size, 1, 1.0f), true).at("contact_gap"), 0.0) << "no shadow, no gap";
+    std::vector<uint8_t> none(size.area(), 0);
+    EXPECT_EQ(measure(Picture(size, 1, 1.0f), truth, true, none).at("contact_gap"), 0.0);
 }
 
 TEST(Metrics, a_filtered_value_of_one_half_is_right_either_way)

@@ -9,7 +9,8 @@
 namespace gnomon::shadow::parts {
 
 /// The commands of SceneGpu::draw_indirect for each layer in turn, of a parallel light's map (orthographic layers). A caster is drawn where
-/// its bounds lie between the light and a receiver that is seen, faces the light and reads no further than `reach` texels from its place.
-gpu::BufferId cull_casters(gpu::PassList&, const Frame&, const LightMap&, float reach);
+/// its bounds touch the layer, or, with Culling::receivers, where they lie between the light and a receiver that is seen, faces the light
+/// and reads no further than `reach` texels from its place.
+gpu::BufferId cull_casters(gpu::PassList&, const Frame&, const LightMap&, Culling, float reach);
 
 } // namespace gnomon::shadow::parts

@@ -12,10 +12,13 @@ layout(set = 0, binding = 1, scalar) readonly buffer Mask { uint mask[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Commands { DrawCommand commands[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { CullConstants c; };
 
+layout(constant_id = 0) const bool masked = true; // else all that touches a layer is drawn
+
 // Whether a receiver looks into the square between two corners of the layer, from behind `depth`.
 bool shades(int index, vec2 lo, vec2 hi, float depth)
 {
     if (any(lessThan(hi, vec2(0.0))) || any(greaterThan(lo, vec2(1.0)))) return false;
+    if (!masked) return true;
     const ivec2 most = ivec2(CULL_MASK_SIZE - 1);
     const ivec2 first = clamp(ivec2(floor(lo * float(CULL_MASK_SIZE))), ivec2(0), most), last = clamp(ivec2(floor(hi * float(CULL_MASK_SIZE))), ivec2(0), most);
     const uint nearer = ordered_from_float(depth);

@@ -150,10 +150,34 @@ void fit_tetrahedron(shaders::LightMap& map, const Bounds& bounds, vec3 position
     }
 }
 
+/// Two paraboloids along -y and y. On the rim between them a texel is half as wide as on the axis, in angle: the densest place is where
+/// both meet. The square's corners look back past the rim, so that filters find their texels there.
+void fit_dual_paraboloid(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
+{
+    map.layout_kind = LIGHT_MAP_DUAL_PARABOLOID, map.layer_count = 2, map.centre = position, map.axes = mat3(1);
+    const float scale = 0.5f / face_tangent(settings);
+    for (int side = 0; side < 2; ++side) {
+        const mat4 axes = light_axes(position, vec3(0, side == 0 ? -1 : 1, 0), vec3(1, 0, 0));
+        shaders::LightMapLayer& layer = map.layers[side];
+        layer = {};
+        layer.perspective = 1, layer.warped = 2;
+        depth_range(bounds, position, 1.0f, layer.near, layer.far);
+        mat4 rows(0);
+        rows[0][0] = scale, rows[1][1] = -scale, rows[2][2] = 1.0f, rows[3][3] = scale;
+        layer.map_from_world = rows * axes;
+        layer.depth_plane = row(axes, 2);
+        layer.texel_uv = 1.0f / float(settings.size);
+        // on the rim: |dq| is the angle there, half of it on the axis
+        layer.texel_metres = 1.0f / (scale * float(settings.size));
+    }
+}
+
 /// All around a light: `fitting.point_layout` in the world's axes.
 void fit_point(shaders::LightMap& map, const Bounds& bounds, vec3 position, const LightMapSettings& settings)
 {
-    if (PointLayout(settings.fitting.point_layout) == PointLayout::tetrahedron)
+    if (PointLayout(settings.fitting.point_layout) == PointLayout::dual_paraboloid)
+        fit_dual_paraboloid(map, bounds, position, settings);
+    else if (PointLayout(settings.fitting.point_layout) == PointLayout::tetrahedron)
         fit_tetrahedron(map, bounds, position, settings);
     else
         fit_cube(map, bounds, position, mat3(1), settings);
@@ -231,11 +255,11 @@ PointFit fit_point_layers(vec3 position, const std::vector<vec3>& receivers, con
 
 namespace {
 
-/// The one layer of `map`, focused, as its fit wants it.
+/// The one layer of `map`, focused, as its fit wants it. A spot has no cascades: of those that are warped it has the warp.
 void warp(shaders::LightMap& map, const scene::View& view, const std::vector<vec3>& receivers, const LightMapSettings& settings)
 {
     const Fit fit = Fit(settings.fitting.fit);
-    if (fit == Fit::uniform || fit == Fit::focused) return;
+    if (fit == Fit::uniform || fit == Fit::focused || fit == Fit::cascades || fit == Fit::sdsm) return;
     const auto layer = warped_layer(map.layers[0], view, receivers, settings);
     if (layer)
         map.layers[0] = *layer;

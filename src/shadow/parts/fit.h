@@ -37,7 +37,8 @@ void fit_cascades(shaders::LightMap&, const Bounds&, const scene::View&, vec3 di
 
 /// A layer of what is seen of a scene, warped as `settings.fitting.fit` says (psm, lispsm, tsm; cascades_warped is lispsm). `focused`: the
 /// layer that is warped, of whose map all `receivers` are part. None where the warp has no meaning or would do harm: the light shines along
-/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm with Lloyd's falloff, the storage factor would grow.
+/// the view, the view is orthographic, no projection holds all receivers, or texels would differ ten thousandfold in width, or, of lispsm
+/// with Lloyd's falloff, the storage factor would grow.
 std::optional<shaders::LightMapLayer> warped_layer(
     const shaders::LightMapLayer& focused, const scene::View&, const std::vector<vec3>& receivers, const LightMapSettings&);
 
@@ -63,6 +64,9 @@ struct OnGpu {
 void draw_light_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth,
     gpu::ImageId before = {}, OnGpu = {});
 
+/// The same of paraboloids: each triangle as the box around its image, each fragment its own ray against the triangle.
+void draw_paraboloid_layers(gpu::PassList&, const Frame&, const shaders::LightMap& map, const LightMapSettings&, gpu::ImageId depth);
+
 /// The same with fragment shaders of one's own, into the targets of `pass`, whose name, program (opaque casters), constants and targets are
 /// given. Both programs have src/shadow/parts/light_casters.glsl's vertices: bindings 0 and 1 are the instances and materials, before those
 /// of `pass`, and the constants begin with clip_from_world for each layer. `commands`: as OnGpu.
@@ -71,6 +75,9 @@ void draw_casters(gpu::PassList&, const Frame&, const shaders::LightMap& map, co
 
 /// What draws into a layer of the map: its clip coordinates.
 mat4 clip_from_world(const shaders::LightMapLayer&);
+
+/// What the shaders that draw casters take (shaders::LightDepthConstants). `fitted`: as LightMap::fitted.
+gpu::Constants caster_constants(const shaders::LightMap&, float slope_bias, gpu::BufferId fitted);
 
 /// The planes between which an instance casts into a layer. Without the near plane for orthographic layers: casters before it are clamped
 /// onto it, not lost.

@@ -114,6 +114,7 @@ void fit_cascades(shaders::LightMap& map, const Bounds& bounds, const scene::Vie
         slices.push_back(receivers.empty() ? seen : receivers);
     }
     if (Fit(settings.fitting.fit) == Fit::cascades_warped && !warp_cascades(map, view, slices, settings)) map.fit_used = int(Fit::cascades);
+    if (Fit(settings.fitting.fit) == Fit::sdsm) map.fit_used = int(Fit::cascades); // unless fit_to_samples takes over
 }
 
 } // namespace gnomon::shadow::parts

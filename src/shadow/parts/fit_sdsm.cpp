@@ -32,6 +32,7 @@ shaders::LightMapLayer widest_layer(
 
 gpu::BufferId fit_to_samples(gpu::PassList& passes, const Frame& frame, const LightMapSettings& settings, shaders::LightMap& map)
 {
+    map.fit_used = settings.fitting.fit;
     const Bounds& bounds = frame.resources.bounds();
     const auto& sun = std::get<scene::DirectionalLight>(frame.light.shape);
     const mat4 axes = light_axes(bounds.centre(), sun.direction, vec3(0, 1, 0));

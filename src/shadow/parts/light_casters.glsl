@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertex shader of a pass that draws casters into a light's layers. The includer names its block of constants, CASTER_CONSTANTS, whose
 // first member is clip_from_world for each layer, and defines CASTERS_MASKED where light_masked.glsl follows, CASTERS_WARPED where fragments
-// write their depth.
+// write their depth, CASTERS_IDS where they write whose they are.
 #ifndef GNOMON_LIGHT_CASTERS_GLSL
 #define GNOMON_LIGHT_CASTERS_GLSL
 #extension GL_GOOGLE_include_directive : require
@@ -23,6 +23,9 @@ layout(location = 3) in uint color;
 layout(location = 0) out vec3 uv_alpha;
 layout(location = 1) flat out uint material;
 #endif
+#ifdef CASTERS_IDS
+layout(location = 4) flat out uint first_primitive;
+#endif
 
 void main()
 {
@@ -40,6 +43,9 @@ void main()
 #ifdef CASTERS_MASKED
     uv_alpha = vec3(uv, unpackUnorm4x8(color).a);
     material = instances[slot].material;
+#endif
+#ifdef CASTERS_IDS
+    first_primitive = instances[slot].first_primitive;
 #endif
 }
 

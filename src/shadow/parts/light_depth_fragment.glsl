@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragments of casters that leave their depth in a light's layer. The includer defines which forms it takes: DEPTH_MASKED, casters with
 // alpha; DEPTH_PEEL, what lies behind the layer drawn before (Everitt 2001); DEPTH_WARPED, layers whose projection takes no affine depth to
-// an affine depth, so that fragments write it.
+// an affine depth, so that fragments write it; DEPTH_IDS, with the instance beside the depth.
 #extension GL_GOOGLE_include_directive : require
 #include "src/shadow/parts/light_depth.shared.h"
 #ifdef DEPTH_MASKED
@@ -29,6 +29,14 @@ float stored_depth()
 float stored_depth() { return gl_FragCoord.z; }
 #endif
 
+#ifdef DEPTH_IDS
+layout(constant_id = 0) const bool masked = false;
+layout(location = 4) flat in uint first_primitive;
+layout(location = 0) out uint id;
+#else
+const bool masked = true;
+#endif
+
 #ifdef DEPTH_PEEL
 layout(set = 0, binding = 2) uniform sampler2DArray before;
 
@@ -47,7 +55,10 @@ void main()
     if (!behind(z)) discard;
 #endif
 #ifdef DEPTH_MASKED
-    if (!caster_is_there()) discard;
+    if (masked && !caster_is_there()) discard;
+#endif
+#ifdef DEPTH_IDS
+    id = first_primitive;
 #endif
 #ifdef DEPTH_WARPED
     gl_FragDepth = z;

@@ -80,6 +80,15 @@ Planes caster_planes(const shaders::LightMapLayer& layer)
     return planes;
 }
 
+gpu::Constants caster_constants(const shaders::LightMap& map, float slope_bias, gpu::BufferId fitted)
+{
+    gpu::Constants constants = depth_constants(map, slope_bias);
+    if (fitted)
+        constants.patches = {{fitted, offsetof(shaders::FittedMap, clip_from_world),
+            offsetof(shaders::LightDepthConstants, clip_from_world), sizeof(shaders::FittedMap::clip_from_world)}};
+    return constants;
+}
+
 void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
     gpu::RasterPass pass, const gpu::Program& masked, gpu::BufferId commands)
 {
@@ -117,6 +126,7 @@ void draw_casters(gpu::PassList& passes, const Frame& frame, const shaders::Ligh
 void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders::LightMap& map, const LightMapSettings& settings,
     gpu::ImageId depth, gpu::ImageId before, OnGpu on_gpu)
 {
+    if (map.layers[0].warped == 2) return draw_paraboloid_layers(passes, frame, map, settings, depth);
     gpu::Device& device = passes.device();
     gpu::RasterPass pass;
     pass.name = "light map";
@@ -125,10 +135,7 @@ void draw_light_layers(gpu::PassList& passes, const Frame& frame, const shaders:
     const std::string opaque = before ? shaders + "_peel.frag" : map.layers[0].warped != 0 ? shaders + ".frag" : "";
     pass.program = &device.raster_program(shaders + ".vert", opaque);
     if (before) pass.bindings = {gpu::Binding(before, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)};
-    pass.constants = depth_constants(map, settings.slope_bias);
-    if (on_gpu.fitted)
-        pass.constants.patches = {{on_gpu.fitted, offsetof(shaders::FittedMap, clip_from_world),
-            offsetof(shaders::LightDepthConstants, clip_from_world), sizeof(shaders::FittedMap::clip_from_world)}};
+    pass.constants = caster_constants(map, settings.slope_bias, on_gpu.fitted);
     pass.depth = gpu::DepthTarget{depth};
     draw_casters(passes, frame, map, settings, std::move(pass),
         device.raster_program(shaders + "_masked.vert", shaders + (before ? "_masked_peel.frag" : "_masked.frag")), on_gpu.commands);
@@ -158,9 +165,9 @@ void describe_map(Fields& fields, int& map_size, shaders::FitParams& p, int larg
         "lispsm, cascades_warped: fraction of the depths seen, the nearest, that may have coarser texels for the sake of the rest.");
     fields.real(
         "psm_slide", p.psm_slide, {0, 1}, "", "psm: how far behind the eye the warp has its own, as a fraction of the depths seen.");
-    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron"},
-        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube, or four wide ones, whose texels are 2.4 times as "
-        "wide.");
+    fields.choice("point_layout", p.point_layout, {"cube", "tetrahedron", "dual_paraboloid"},
+        "Layers of a point light, or of a spot wider than 120 degrees: the six of a cube; four wide ones, whose texels are 2.4 times as "
+        "wide; or two paraboloids, whose texels are twice as wide, and in which each triangle is drawn as a box.");
 }
 
 shaders::FitParams unwarped(shaders::FitParams p)
@@ -168,6 +175,7 @@ shaders::FitParams unwarped(shaders::FitParams p)
     const Fit fit = Fit(p.fit);
     if (fit == Fit::psm || fit == Fit::lispsm || fit == Fit::tsm) p.fit = int(Fit::focused);
     if (fit == Fit::cascades_warped) p.fit = int(Fit::cascades);
+    if (PointLayout(p.point_layout) == PointLayout::dual_paraboloid) p.point_layout = int(PointLayout::cube);
     return p;
 }
 
@@ -177,10 +185,13 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
     const bool sun = frame.light.kind() == scene::LightKind::directional;
     if (Fit(settings.fitting.fit) == Fit::sdsm && sun) out.fitted = fit_to_samples(passes, frame, settings, out.constants);
+    if (frame.light_map && !out.fitted) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
     OnGpu on_gpu{out.fitted, {}};
-    if (settings.culling == Culling::receivers && sun && out.constants.layers[0].warped == 0)
-        on_gpu.commands = cull_casters(passes, frame, out, settings.guard_texels + settings.offset_texels);
+    // the CPU knows but a bound of layers that the GPU fits
+    const bool choose = settings.culling == Culling::receivers || (settings.culling == Culling::frustum && out.fitted);
+    if (choose && sun && out.constants.layers[0].warped == 0)
+        on_gpu.commands = cull_casters(passes, frame, out, settings.culling, settings.guard_texels + settings.offset_texels);
     draw_light_layers(passes, frame, out.constants, settings, out.depth, {}, on_gpu);
     if (frame.light_map) *frame.light_map = out;
     return out;

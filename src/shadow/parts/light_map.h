@@ -17,8 +17,9 @@ namespace gnomon::shadow::parts {
 enum class Fit : int { uniform, focused, cascades, psm, lispsm, tsm, cascades_warped, sdsm };
 /// How a warp fades where the light shines along the view (warp_parameter.h).
 enum class Falloff : int { lloyd, sine };
-/// Of a point light, or a spot wider than 120 degrees: a cube's six layers, or a tetrahedron's four, whose texels are 2.4 times as wide.
-enum class PointLayout : int { cube, tetrahedron };
+/// Of a point light, or a spot wider than 120 degrees: a cube's six layers; a tetrahedron's four, whose texels are 2.4 times as wide; or
+/// two paraboloids, which are no projections: straight edges are arcs in them (layer_at in shaders/light_map.glsl reads them).
+enum class PointLayout : int { cube, tetrahedron, dual_paraboloid };
 enum class DepthFormat : int { d32, d16 };
 /// Which casters are drawn: all; those whose bounds touch a layer; of these, under a sun, those between it and a receiver that is seen
 /// (parts/cull.h). Pictures are the same.
@@ -50,13 +51,13 @@ gpu::Constants with_layer(gpu::Constants, const LightMap& map, uint32_t layer, s
 /// Describes the parameters that every technique with a light map has. `largest`: texels a side, by what else it keeps of a map.
 void describe_map(Fields&, int& map_size, shaders::FitParams&, int largest);
 
-/// The same without warps, for those who need texels of one width.
+/// The same without warps and paraboloids, for those who need texels of one width.
 shaders::FitParams unwarped(shaders::FitParams);
 
 /// Which layouts exist for a light: directional -> one orthographic layer, or one for each cascade; spot up to 120 degrees -> one
-/// perspective layer; wider spots and points -> six cube faces, or the four of a tetrahedron. Rect and disk lights are taken at their
-/// centre, as points, with a cube that stands as they do: the face along +z is parallel to them, and its rows and columns to a rectangle's
-/// sides.
+/// perspective layer; wider spots and points -> six cube faces, the four of a tetrahedron or two paraboloids. Rect and disk lights are
+/// taken at their centre, as points, with a cube that stands as they do: the face along +z is parallel to them, and its rows and columns to
+/// a rectangle's sides.
 shaders::LightMap fit_light_map(const scene::Scene&, const Bounds&, const scene::View&, const scene::Light&, const LightMapSettings&);
 
 /// A filter of `kernel` texels held to what a map can give: a quarter of its side. Wider ones would average unrelated parts of the

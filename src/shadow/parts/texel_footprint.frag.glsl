@@ -17,7 +17,8 @@ void main()
     footprint = vec4(0.0);
     const Receiver r = load_receiver(c.view, depth_image, normal_image, gl_FragCoord.xy);
     if (r.background) return;
-    const LightMapLayer layer = c.map.layers[select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world)];
+    const LightMapLayer layer
+        = layer_at(c.map.layers[select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world)], r.p_world);
     if (!project(layer, r.p_world).inside || dot(r.n_geometric, map_ray(layer, r.p_world)) <= 0.0) return;
     const TexelFootprint f = texel_footprint(c.view, layer, c.map.size, r.p_world, r.n_geometric);
     footprint = vec4(longer_edge(f.total), longer_edge(f.perspective), f.projection, 0.0);
