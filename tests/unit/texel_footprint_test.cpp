@@ -36,7 +36,7 @@ scene::View along_z()
         {.eye = {0, 0, 0}, .target = {0, 0, 1}, .fov_y = float(2.0 * frustum.half_fov), .near = float(frustum.near)}, picture, box);
 }
 
-LightMapSettings settings(Fit fit) { return {.size = map_size, .fitting = {.fit = int(fit), .split = 1.0f, .stable = 0}}; }
+LightMapSettings settings(Fit fit) { return {.size = map_size, .fitting = {.fit = int(fit), .split = 1.0f, .stable = 0, .blend = 0.0f}}; }
 
 /// (3.4) without its off-diagonals: the texel's edge along the picture's height, by that of a map with as many texels as the picture has
 /// pixels, and the other along its width.

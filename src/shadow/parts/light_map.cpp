@@ -185,7 +185,6 @@ LightMap draw_light_map(gpu::PassList& passes, const Frame& frame, const LightMa
     out.constants = fit_light_map(frame.scene, frame.resources.bounds(), frame.view, frame.light, settings);
     const bool sun = frame.light.kind() == scene::LightKind::directional;
     if (Fit(settings.fitting.fit) == Fit::sdsm && sun) out.fitted = fit_to_samples(passes, frame, settings, out.constants);
-    if (frame.light_map && !out.fitted) *frame.light_map = out.constants;
     out.depth = passes.transient(depth_image(out.constants, settings));
     OnGpu on_gpu{out.fitted, {}};
     // the CPU knows but a bound of layers that the GPU fits

@@ -24,7 +24,8 @@ struct TexelFootprint {
     double projection;
 };
 
-/// At `p` on a surface with unit normal n, in a layer of `size` texels a side. Infinite where the surface holds the light's direction.
+/// At `p` on a surface with unit normal n, in a layer of `size` texels a side that is a projection (no paraboloid). Infinite where the
+/// surface holds the light's direction.
 TexelFootprint texel_footprint(const shaders::LightMapLayer&, double size, const scene::View&, glm::dvec3 p, glm::dvec3 n);
 
 /// The longer edge of a texel, pixels: 1 matches, more is undersampled. No edge of a texel is longer.
