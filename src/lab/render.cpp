@@ -87,6 +87,12 @@ public:
         return device_.submit(std::move(passes));
     }
 
+    uint64_t kept_bytes() const
+    {
+        uint64_t bytes = 0;
+        for (const auto& technique : techniques_) bytes += technique->kept_bytes();
+        return bytes;
+    }
     Targets& targets() { return targets_; }
 
 private:
@@ -188,7 +194,8 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     if (warm_up > 0)
         for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
     collect(out, runs, choice.info->id);
-    out.technique_bytes = first.group_bytes.count(std::string(choice.info->id)) ? first.group_bytes.at(std::string(choice.info->id)) : 0;
+    const auto own = first.group_bytes.find(std::string(choice.info->id));
+    out.technique_bytes = (own == first.group_bytes.end() ? 0 : own->second) + renderer.kept_bytes();
 
     Targets& targets = renderer.targets();
     for (gpu::Image& image : targets.images) out.images.push_back(device.read_back(image));

@@ -59,6 +59,8 @@ public:
     virtual ~Technique() = default;
     /// Adds the passes that write frame.output. `params` is the technique's Params struct.
     virtual void record(gpu::PassList&, const Frame&, std::span<const std::byte> params) = 0;
+    /// Device memory that it keeps between frames, in bytes; what a frame makes and drops again is counted by its pass list.
+    virtual uint64_t kept_bytes() const { return 0; }
 };
 
 /// Hands `record` its own struct.

@@ -25,7 +25,7 @@ void describe(Params& p, Fields& fields)
         "Positions a pixel at which visibility is decided: its centre, or that many over its footprint on the receiver's plane.");
     fields.integer(
         "grid", p.grid, {16, 1024}, "cells", "Width and height of the grid of lists, each layer; the picture does not depend on it.");
-    fields.choice("grid_fit", p.grid_fit, {"scene", "view", "cascades"},
+    fields.choice("grid_fit", p.grid_fit, {"uniform", "focused", "cascades"},
         "What the grid of a directional light covers: the whole scene, what the view sees of it, or that in four layers one behind "
         "another.");
 }
@@ -206,6 +206,8 @@ private:
         blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
         if (!blocks.empty()) device_.upload(blocks_, std::as_bytes(std::span(blocks)));
     }
+
+    uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes : 0; }
 
     gpu::Buffer blocks_; ///< of the scene's triangles, made on first use
     uint32_t block_count_ = 0;

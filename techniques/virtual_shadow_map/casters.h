@@ -21,6 +21,7 @@ public:
     uint32_t masked() const { return masked_; }
     gpu::Buffer& moved() { return moved_; } ///< boxes before and after
     uint32_t moved_count() const { return moved_count_; }
+    uint64_t bytes() const { return (clusters_ ? clusters_.desc().bytes : 0) + (moved_ ? moved_.desc().bytes : 0); }
 
 private:
     struct Placed {

@@ -21,6 +21,11 @@ public:
     std::vector<Slot> slots() { return read<Slot>(slots_); }
     uint32_t frame() const { return frame_; }
     gpu::Image& pool() { return pool_; }
+    uint64_t kept_bytes() const override
+    {
+        if (!pool_) return 0;
+        return pool_.bytes() + slots_.desc().bytes + counts_.desc().bytes + casters_.bytes();
+    }
 
 private:
     void record_with(gpu::PassList&, const shadow::Frame&, const Params&) override;
