@@ -50,7 +50,7 @@ FilterPoint filter_point(Receiver r, int index)
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
     at.slope *= min(1.0, 50.0 * per_metre / max(length(at.slope / m.texel), 1e-20));
     // as reference_depth: what rounding may take
-    const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
+    const float rounding = stored_rounding(layer, m.z) / stored_per_metre(layer, m.depth);
     // and what means of up to 127 x 127 depths may be off by rounding, or a floor would stand behind its own mean
     at.t = centred_from_depth(layer, m.depth - rounding) - 1e-5 - c.filtering.params.bias * float(c.filtering.params.kernel) * (abs(at.slope.x) + abs(at.slope.y));
     return at;

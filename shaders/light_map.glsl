@@ -106,13 +106,17 @@ float stored_from_depth(LightMapLayer layer, float depth)
     return (layer.far - depth) / (layer.far - layer.near);
 }
 
+// What rounding may take of a stored depth. Perspective depth keeps its relative precision; affine depth is off by units in the last place
+// of the range: at the far end, under an overhead sun, a floor was striped where the margin shrank with z.
+float stored_rounding(LightMapLayer layer, float z) { return 4e-6 * max(z, layer.perspective != 0 ? 0.0 : 0.25); }
+
 // What a receiver compares with: its stored depth plus what rounding may take. Surfaces across the light's axis have no slope for a
 // bias to scale with: without this margin half of a floor right below a point light is acne, and with 6e-7 lavapipe, which
 // interpolates the depth of a large clipped triangle with an error of several units in the last place, still shows stripes.
 float reference_depth(LightMapLayer layer, float depth, float depth_step)
 {
     const float z = max(0.0, stored_from_depth(layer, depth));
-    return z + max(depth_step, z * 4e-6);
+    return z + max(depth_step, stored_rounding(layer, z));
 }
 
 float depth_from_stored(LightMapLayer layer, float z)

@@ -46,7 +46,7 @@ SoftPoint soft_point(Receiver r, float horizon, int index)
     p.slope = receiver_slope(layer, r.p_world, r.n_geometric) * (-1.0 / (stored_per_metre(layer, m.depth) * c.soft.map.size));
     // where the light grazes, a receiver's plane leaves the map within a texel: no steeper than 50 metres a metre
     p.slope *= min(1.0, 50.0 / max(length(p.slope / m.texel), 1e-20));
-    const float rounding = 4e-6 * m.z / stored_per_metre(layer, m.depth);
+    const float rounding = stored_rounding(layer, m.z) / stored_per_metre(layer, m.depth);
     p.depth = m.depth - rounding - c.soft.params.bias * (abs(p.slope.x) + abs(p.slope.y));
     p.light = light_half_size(layer, c.soft.light, r.p_world);
     return p;

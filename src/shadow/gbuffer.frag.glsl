@@ -51,7 +51,7 @@ void main()
     }
     if (masked && !kept(index)) discard;
 
-    n_geometric *= dot(n_geometric, p_eye) > 0.0 ? -1.0 : 1.0;
+    n_geometric *= dot(n_geometric, c.view.orthographic != 0 ? c.view.forward : p_eye) > 0.0 ? -1.0 : 1.0;
     const vec3 n_shading = gl_FrontFacing ? n_world : -n_world;
     normal_out = uvec2(encode_normal(n_shading), encode_normal(n_geometric));
     primitive_out = ids.x + uint(gl_PrimitiveID);

@@ -271,7 +271,7 @@ vec4 soft_visibility(SoftPoint p)
     v.at = p.at;
     v.stored = stored_from_depth(layer, depth);
     v.slope = -p.slope * per_metre;
-    v.margin = max(4e-6 * v.stored, 1e-7) + c.soft.params.bias * (abs(v.slope.x) + abs(v.slope.y));
+    v.margin = max(stored_rounding(layer, v.stored), 1e-7) + c.soft.params.bias * (abs(v.slope.x) + abs(v.slope.y));
     v.stretch = layer.texel_metres * (layer.perspective != 0 ? per_metre * depth * depth : per_metre);
     v.faces_light = dot(p.receiver.n_geometric, to_light(c.soft.light, p_world).xyz) > 0.0;
     v.layer = p.layer;

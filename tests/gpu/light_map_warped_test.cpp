@@ -23,9 +23,8 @@ constexpr gpu::Size picture{96, 64};
 
 class WarpedMap : public gpu::TechniqueTest {
 protected:
-    static std::vector<float> draw(
-        const scene::Scene& s, const scene::Camera& camera, const char* light, Fit fit, double size, double slope = 1.0,
-        double bias = BIAS_SLOPE)
+    static std::vector<float> draw(const scene::Scene& s, const scene::Camera& camera, const char* light, Fit fit, double size,
+        double slope = 1.0, double bias = BIAS_SLOPE)
     {
         return TechniqueTest::draw(technique_shadow_map, s, camera, picture, light,
             {{"fit", double(fit)}, {"map_size", size}, {"bias", bias}, {"bias_scale", slope}, {"stable_cascades", 0}});

@@ -56,6 +56,9 @@ LightMap draw_biased_map(
     if (bias.kind == BIAS_SLOPE) settings.slope_bias = slope_factor * bias.scale * 2.0f * reach;
     // across the map, d / L times sin(a)
     if (bias.kind == BIAS_NORMAL_OFFSET) settings.offset_texels = 1.4143f * bias.scale * reach;
+    // second layers and ids are drawn by corners, which paraboloids bend
+    if (bias.kind >= BIAS_MIDPOINT && PointLayout(settings.fitting.point_layout) == PointLayout::dual_paraboloid)
+        settings.fitting.point_layout = int(PointLayout::cube);
     if (bias.kind == BIAS_SECOND_DEPTH) settings.cull = VK_CULL_MODE_FRONT_BIT;
     if (bias.kind != BIAS_MIDPOINT && bias.kind != BIAS_DUAL_LAYERS) return draw_light_map(passes, frame, settings);
     settings.format = DepthFormat::d32;
