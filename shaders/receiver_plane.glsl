@@ -45,6 +45,25 @@ vec2 receiver_slope(LightMapLayer layer, vec3 p_world, vec3 n)
     return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
 }
 
+// By what share a warp changes its scale, and with it the slope of the plane through p, within `radius` texels; at most 3/4, beyond which
+// the plane's horizon may be among them. A plane's depth is a quotient in u and v, as depth and w are affine on it: it is the logarithm of
+// w, less that of the depth where stored depth is its inverse, whose gradient counts.
+float warp_change(LightMapLayer layer, float size, vec3 p_world, vec3 n, float radius)
+{
+    if (layer.warped == 0) return 0.0;
+    vec3 t, b;
+    orthonormal_basis(n, t, b);
+    const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
+    const vec4 ht = layer.map_from_world * vec4(t, 0.0), hb = layer.map_from_world * vec4(b, 0.0);
+    vec3 x = ht.xyw * h.w - h.xyw * ht.w, y = hb.xyw * h.w - h.xyw * hb.w;
+    const float inverse = layer.perspective != 0 ? h.w * h.w / dot(layer.depth_plane, vec4(p_world, 1.0)) : 0.0;
+    x.z = ht.w * h.w - inverse * dot(layer.depth_plane.xyz, t);
+    y.z = hb.w * h.w - inverse * dot(layer.depth_plane.xyz, b);
+    const float det = x.x * y.y - x.y * y.x;
+    const vec2 gradient = vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
+    return min(dot(abs(gradient), vec2(radius / size)), 0.75);
+}
+
 // One depth for all texels.
 ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapPoint m)
 {
@@ -82,8 +101,9 @@ ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, 
     const vec2 tangent = receiver_tangent(layer, size, m, p_world, n, limit);
     r.slope = tangent * texel;
     r.z += dot(abs(r.slope), vec2(PLANE_SNAP)) + max(texel.x, texel.y) * 6e-5 * (1.0 + dot(tangent, tangent)) * radius;
-    // A warp bends the plane in the map. Its w changes by no more than a share of 1 / size from texel to texel, and with it the slope.
-    if (layer.warped != 0) r.z += dot(abs(r.slope), vec2(layer.texel_uv)) * radius * radius;
+    // A warp bends the plane in the map: at d texels it lies dot(slope, d) / (1 + k d) off, with k as below.
+    const float bend = warp_change(layer, size, p_world, n, radius);
+    r.z += dot(abs(r.slope), vec2(radius)) * bend / (1.0 - bend);
     return r;
 }
 

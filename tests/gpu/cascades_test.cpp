@@ -57,9 +57,11 @@ protected:
         passes.fullscreen({.name = "resolve",
             .program = &device().raster_program("shaders/fullscreen.vert", "techniques/shadow_map/shadow_map_resolve.frag", pcf),
             .bindings = {{g.depth, gpu::Use::sample}, {g.normal, gpu::Use::sample},
-                gpu::Binding(depth, gpu::Use::sample, gpu::Sampler::compare_linear).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
+                gpu::Binding(depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {g.primitive, gpu::Use::sample},
+                gpu::Binding(g.primitive, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
+                {passes.import(resources.instances()), gpu::Use::load}},
             .constants
-            = ResolveConstants{shadow::view_constants(view, 0), shadow::light_constants(light_, scene_.bounds()), read, Params{}},
+            = ResolveConstants{shadow::view_constants(view, 0), shadow::light_constants(light_, scene_.bounds()), read, Params{}, 2.0f},
             .colors = {{frame.output}}});
         device().submit(std::move(passes));
         return device().read_back(out).values;
