@@ -10,12 +10,13 @@
 // Rasterisers snap vertices to 1/256 texel; with both ends of an edge, a plane's depth moves by 1/128 of its slope.
 #define PLANE_SNAP (1.0 / 128.0)
 
-// The depth to compare with at d texels from `at` is z + max(dot(slope, d), cone * |d|), of which one is 0 or both count.
+// The depth to compare with at d texels from `at` is z + max(dot(slope, d), cone * |d|), of which one is 0 or both count; a warp bends the plane.
 struct ReceiverPlane {
     vec2 at; // where the receiver falls, in texels
     float z; // stored depth there, with all margins
     vec2 slope; // change of stored depth from texel to texel
     float cone;
+    vec2 bend; // of the plane, by a warp: slopes at d texels are divided by 1 + dot(bend, d)
 };
 
 // Change of stored depth by one metre of depth.
@@ -45,12 +46,11 @@ vec2 receiver_slope(LightMapLayer layer, vec3 p_world, vec3 n)
     return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
 }
 
-// By what share a warp changes its scale, and with it the slope of the plane through p, within `radius` texels; at most 3/4, beyond which
-// the plane's horizon may be among them. A plane's depth is a quotient in u and v, as depth and w are affine on it: it is the logarithm of
-// w, less that of the depth where stored depth is its inverse, whose gradient counts.
-float warp_change(LightMapLayer layer, float size, vec3 p_world, vec3 n, float radius)
+// Of the plane through p, whose depth a warp makes a quotient in u and v: at d texels it lies dot(slope, d) / (1 + dot(bend, d)) off. Depth and
+// w are affine on the plane: what counts is the gradient of w's logarithm, less that of the depth's where stored depth is its inverse.
+vec2 warp_bend(LightMapLayer layer, float size, vec3 p_world, vec3 n)
 {
-    if (layer.warped == 0) return 0.0;
+    if (layer.warped == 0) return vec2(0.0);
     vec3 t, b;
     orthonormal_basis(n, t, b);
     const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
@@ -60,14 +60,13 @@ float warp_change(LightMapLayer layer, float size, vec3 p_world, vec3 n, float r
     x.z = ht.w * h.w - inverse * dot(layer.depth_plane.xyz, t);
     y.z = hb.w * h.w - inverse * dot(layer.depth_plane.xyz, b);
     const float det = x.x * y.y - x.y * y.x;
-    const vec2 gradient = vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
-    return min(dot(abs(gradient), vec2(radius / size)), 0.75);
+    return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (-size * (abs(det) < 1e-30 ? 1e-30 : det));
 }
 
 // One depth for all texels.
 ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapPoint m)
 {
-    return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0);
+    return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0, vec2(0.0));
 }
 
 // The slope of the plane through p in metres of depth a metre across, as the layer sees it: no longer than `limit`, which holds it where
@@ -101,9 +100,7 @@ ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, 
     const vec2 tangent = receiver_tangent(layer, size, m, p_world, n, limit);
     r.slope = tangent * texel;
     r.z += dot(abs(r.slope), vec2(PLANE_SNAP)) + max(texel.x, texel.y) * 6e-5 * (1.0 + dot(tangent, tangent)) * radius;
-    // A warp bends the plane in the map: at d texels it lies dot(slope, d) / (1 + k d) off, with k as below.
-    const float bend = warp_change(layer, size, p_world, n, radius);
-    r.z += dot(abs(r.slope), vec2(radius)) * bend / (1.0 - bend);
+    r.bend = warp_bend(layer, size, p_world, n);
     return r;
 }
 
