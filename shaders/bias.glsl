@@ -17,7 +17,8 @@ bool bias_is_in_map(int kind) { return kind == BIAS_MIDPOINT || kind == BIAS_DUA
 // By how much a plane's depth differs within `radius` texels of p, both ways: metres.
 float depth_within(LightMapLayer layer, float size, MapPoint m, vec3 p_world, vec3 n, float radius)
 {
-    return radius * dot(abs(receiver_tangent(layer, size, m, p_world, n, BIAS_SLOPE_LIMIT)), m.texel);
+    const float within = radius * dot(abs(receiver_tangent(layer, size, m, p_world, n, BIAS_SLOPE_LIMIT)), m.texel);
+    return within / (1.0 - min(radius * dot(abs(warp_bend(layer, size, p_world, n)), vec2(1.0)), 0.75));
 }
 
 // `radius`: texels between the receiver and the farthest centre of a texel that the filter reads. `inside` is false where no texel stands

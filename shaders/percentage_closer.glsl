@@ -10,13 +10,16 @@
 #define RECONSTRUCT_BILINEAR 1
 #define RECONSTRUCT_BICUBIC 2
 
+// Bent planes are followed up to a quarter of their scale: at 0 lies their horizon.
+const float nearest_horizon = 0.25;
+
 // What the texels `first` + (0,1) (1,1) (1,0) (0,0), a gather's order, are compared with: no less than 0, so that where nothing was
 // drawn is lit.
 vec4 reference_four(ReceiverPlane r, vec2 first, bool coned)
 {
     const vec2 d = first + 0.5 - r.at;
     const vec4 dx = d.x + vec4(0.0, 1.0, 1.0, 0.0), dy = d.y + vec4(1.0, 1.0, 0.0, 0.0);
-    vec4 z = r.slope.x * dx + r.slope.y * dy;
+    vec4 z = (r.slope.x * dx + r.slope.y * dy) / max(1.0 + r.bend.x * dx + r.bend.y * dy, nearest_horizon);
     if (coned) z = max(z, r.cone * sqrt(dx * dx + dy * dy));
     return max(r.z + z, 0.0);
 }
@@ -33,7 +36,7 @@ vec2 nearest_tap(sampler2DArray map, int layer_index, ReceiverPlane r, vec2 at, 
 {
     const vec2 centre = clamp(floor(at), vec2(0.0), 1.0 / texel - 1.0) + 0.5;
     const vec2 offset = centre - r.at;
-    float z = dot(r.slope, offset);
+    float z = dot(r.slope, offset) / max(1.0 + dot(r.bend, offset), nearest_horizon);
     if (coned) z = max(z, r.cone * length(offset));
     return vec2(texelFetch(map, ivec3(centre, layer_index), 0).r, max(r.z + z, 0.0));
 }

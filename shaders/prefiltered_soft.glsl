@@ -60,7 +60,7 @@ float unblocked(SoftPoint p)
     point = p;
     layer = c.soft.map.layers[p.layer];
     half_range = 0.5 * (layer.far - layer.near);
-    plane = ReceiverPlane(p.at, stored_from_depth(layer, p.depth), -p.slope * stored_per_metre(layer, p.depth), 0.0);
+    plane = ReceiverPlane(p.at, stored_from_depth(layer, p.depth), -p.slope * stored_per_metre(layer, p.depth), 0.0, vec2(0.0));
 
     // What is nearest in the window tells how far the window has to reach; whatever lies outside of the smaller one cannot block.
     const vec2 widest = vec2(0.5 * c.prefiltered.widest);

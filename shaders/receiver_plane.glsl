@@ -10,12 +10,13 @@
 // Rasterisers snap vertices to 1/256 texel; with both ends of an edge, a plane's depth moves by 1/128 of its slope.
 #define PLANE_SNAP (1.0 / 128.0)
 
-// The depth to compare with at d texels from `at` is z + max(dot(slope, d), cone * |d|), of which one is 0 or both count.
+// The depth to compare with at d texels from `at` is z + max(dot(slope, d), cone * |d|), of which one is 0 or both count; a warp bends the plane.
 struct ReceiverPlane {
     vec2 at; // where the receiver falls, in texels
     float z; // stored depth there, with all margins
     vec2 slope; // change of stored depth from texel to texel
     float cone;
+    vec2 bend; // of the plane, by a warp: slopes at d texels are divided by 1 + dot(bend, d)
 };
 
 // Change of stored depth by one metre of depth.
@@ -45,10 +46,27 @@ vec2 receiver_slope(LightMapLayer layer, vec3 p_world, vec3 n)
     return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (abs(det) < 1e-30 ? 1e-30 : det);
 }
 
+// Of the plane through p, whose depth a warp makes a quotient in u and v: at d texels it lies dot(slope, d) / (1 + dot(bend, d)) off. Depth and
+// w are affine on the plane: what counts is the gradient of w's logarithm, less that of the depth's where stored depth is its inverse.
+vec2 warp_bend(LightMapLayer layer, float size, vec3 p_world, vec3 n)
+{
+    if (layer.warped == 0) return vec2(0.0);
+    vec3 t, b;
+    orthonormal_basis(n, t, b);
+    const vec4 h = layer.map_from_world * vec4(p_world, 1.0);
+    const vec4 ht = layer.map_from_world * vec4(t, 0.0), hb = layer.map_from_world * vec4(b, 0.0);
+    vec3 x = ht.xyw * h.w - h.xyw * ht.w, y = hb.xyw * h.w - h.xyw * hb.w;
+    const float inverse = layer.perspective != 0 ? h.w * h.w / dot(layer.depth_plane, vec4(p_world, 1.0)) : 0.0;
+    x.z = ht.w * h.w - inverse * dot(layer.depth_plane.xyz, t);
+    y.z = hb.w * h.w - inverse * dot(layer.depth_plane.xyz, b);
+    const float det = x.x * y.y - x.y * y.x;
+    return vec2(x.z * y.y - x.y * y.z, x.x * y.z - x.z * y.x) / (-size * (abs(det) < 1e-30 ? 1e-30 : det));
+}
+
 // One depth for all texels.
 ReceiverPlane flat_plane(LightMapLayer layer, float size, float depth_step, MapPoint m)
 {
-    return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0);
+    return ReceiverPlane(m.uv * size, reference_depth(layer, m.depth, depth_step), vec2(0.0), 0.0, vec2(0.0));
 }
 
 // The slope of the plane through p in metres of depth a metre across, as the layer sees it: no longer than `limit`, which holds it where
@@ -82,8 +100,7 @@ ReceiverPlane receiver_plane(LightMapLayer layer, float size, float depth_step, 
     const vec2 tangent = receiver_tangent(layer, size, m, p_world, n, limit);
     r.slope = tangent * texel;
     r.z += dot(abs(r.slope), vec2(PLANE_SNAP)) + max(texel.x, texel.y) * 6e-5 * (1.0 + dot(tangent, tangent)) * radius;
-    // A warp bends the plane in the map. Its w changes by no more than a share of 1 / size from texel to texel, and with it the slope.
-    if (layer.warped != 0) r.z += dot(abs(r.slope), vec2(layer.texel_uv)) * radius * radius;
+    r.bend = warp_bend(layer, size, p_world, n);
     return r;
 }
 

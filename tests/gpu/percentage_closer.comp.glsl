@@ -16,7 +16,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     const FilterCase k = cases[i];
-    const ReceiverPlane r = ReceiverPlane(k.at, k.z, k.slope, k.cone);
+    const ReceiverPlane r = ReceiverPlane(k.at, k.z, k.slope, k.cone, vec2(0.0));
     const vec2 texel = 1.0 / vec2(textureSize(map, 0).xy);
     if (k.kind == CASE_SEPARABLE)
         results[i] = separable_filter(map, 0, r, k.n, k.gaussian != 0, k.reconstruct, k.cone != 0.0, k.adaptive != 0);
