@@ -73,9 +73,8 @@ protected:
                 gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {g.primitive, gpu::Use::sample},
                 gpu::Binding(g.primitive, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
                 {passes.import(frame.resources.instances()), gpu::Use::load}},
-            .constants
-            = with_map(ResolveConstants{shadow::view_constants(frame.view, 0), shadow::light_constants(light_, scene_.bounds()),
-                           map.constants, params, guard - 1.0f},
+            .constants = with_map(ResolveConstants{shadow::view_constants(frame.view, 0), shadow::light_constants(light_, scene_.bounds()),
+                                      map.constants, params, guard - 1.0f},
                 map, offsetof(ResolveConstants, map)),
             .colors = {{frame.output}}});
     }
@@ -220,9 +219,9 @@ TEST_F(CascadesTest, FitsThatFollowTheViewSwim)
         return double(swum) / (64.0 * double(start.size()));
     };
     const double stable = share({.fit = int(Fit::cascades), .split = 0.3f});
-    for (const auto& [name, fitting] : {std::pair<const char*, shaders::FitParams>{"focused", {.fit = int(Fit::focused)}},
-             {"lispsm", {.fit = int(Fit::lispsm)}}, {"tight cascades", {.fit = int(Fit::cascades), .split = 0.3f, .stable = 0}},
-             {"sdsm", {.fit = int(Fit::sdsm)}}}) {
+    for (const auto& [name, fitting] :
+        {std::pair<const char*, shaders::FitParams>{"focused", {.fit = int(Fit::focused)}}, {"lispsm", {.fit = int(Fit::lispsm)}},
+            {"tight cascades", {.fit = int(Fit::cascades), .split = 0.3f, .stable = 0}}, {"sdsm", {.fit = int(Fit::sdsm)}}}) {
         const double swum = share(fitting);
         std::printf("%s: %.4f of all pixels swim (stable cascades, with their seams: %.4f)\n", name, swum, stable);
         EXPECT_GT(swum, stable) << name;
