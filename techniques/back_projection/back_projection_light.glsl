@@ -77,8 +77,13 @@ vec2 along_sides(LightFrame f, vec2 p)
     return f.exchanged ? p.yx : p;
 }
 
-// Where a perspective layer's own axis falls, in uv.
-vec2 axis_uv(LightMapLayer layer) { return (mat3(layer.map_from_world) * layer.depth_plane.xyz).xy; }
+// Where a perspective layer's own axis falls, in uv. In the middle without rounding: a cube's texels lie on a panel in rows, and which of
+// them an edge between two falls to would change.
+vec2 axis_uv(LightMapLayer layer)
+{
+    const vec2 uv = (mat3(layer.map_from_world) * layer.depth_plane.xyz).xy;
+    return all(lessThan(abs(uv - 0.5), vec2(1e-5))) ? vec2(0.5) : uv;
+}
 
 // The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that puts the axis into
 // its place.
