@@ -6,10 +6,8 @@
 #define GNOMON_LIGHT_CASTERS_GLSL
 #extension GL_GOOGLE_include_directive : require
 #extension GL_ARB_shader_viewport_layer_array : require
-#include "shaders/scene.glsl"
+#include "src/shadow/parts/caster_vertex.glsl"
 
-layout(location = 0) in vec3 position;
-layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { CASTER_CONSTANTS c; };
 
 layout(location = 2) flat out int layer;
@@ -17,12 +15,6 @@ layout(location = 2) flat out int layer;
 layout(location = 3) out float before_far; // metres along the layer's axis, from the far plane towards the light
 #endif
 
-#ifdef CASTERS_MASKED
-layout(location = 2) in vec2 uv;
-layout(location = 3) in uint color;
-layout(location = 0) out vec3 uv_alpha;
-layout(location = 1) flat out uint material;
-#endif
 #ifdef CASTERS_IDS
 layout(location = 4) flat out uint first_primitive;
 #endif
@@ -31,7 +23,7 @@ void main()
 {
     const uint slot = instance_slot(gl_InstanceIndex);
     gl_Layer = layer = instance_layer(gl_InstanceIndex);
-    const vec4 p_world = vec4(transform_point(instances[slot], position), 1.0);
+    const vec4 p_world = caster_vertex(slot);
     gl_Position = c.clip_from_world[gl_Layer] * p_world;
 #ifdef CASTERS_WARPED
     const vec4 range = c.ranges[gl_Layer];
@@ -39,10 +31,6 @@ void main()
     before_far = range.y - depth;
     gl_Position.z = 0.5 * gl_Position.w; // nothing is clipped in depth, but what lies behind a light
     gl_ClipDistance[0] = range.z != 0.0 ? depth - range.x : 1.0;
-#endif
-#ifdef CASTERS_MASKED
-    uv_alpha = vec3(uv, unpackUnorm4x8(color).a);
-    material = instances[slot].material;
 #endif
 #ifdef CASTERS_IDS
     first_primitive = instances[slot].first_primitive;
