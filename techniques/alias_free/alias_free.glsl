@@ -68,7 +68,7 @@ CellPlace place_sample(ViewSample s)
             at.z = min(at.z, q.w > 1e-3 * h.w ? q.z / q.w : 0.0);
             if (extent == 1e30) break;
         }
-        while (at.level + 1 < c.grid.levels && !(extent * c.grid.level[at.level].scale <= 0.5)) ++at.level;
+        while (at.level + 1 < c.grid.levels && !(extent * c.grid.level[at.level].scale <= FOOTPRINT_REACH)) ++at.level;
         if (at.level + 1 == c.grid.levels) at.z = 0.0;
     }
     const GridLevel level = c.grid.level[at.level];

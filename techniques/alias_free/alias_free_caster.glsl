@@ -61,13 +61,16 @@ uint blocked_positions(Caster t, uint at, Signs s)
     if (SAMPLES == 1) return 1u; // may_block has decided
     const vec4 u = records[RECORD * at + 1];
     if (floatBitsToUint(u.w) == t.primitive) return 0;
-    const vec3 swing = t.lengths.xyz * s.radius;
-    const bool inside = all(greaterThan(s.e - swing, vec3(0.0))) || all(lessThan(s.e + swing, vec3(0.0)));
-    if (inside && !t.masked && s.below < -t.lengths.w * s.radius) return SAMPLE_BITS;
-    // volumes and height are linear over the footprint
+    // Volumes and height are linear over the footprint. Positions stay a 32nd of its sides within its rim, which is more than rounding takes:
+    // what holds at the rim is what position by position would say.
     const vec3 v = records[RECORD * at + 2].xyz;
     const vec3 e_u = volumes(t, u.xyz, u.xyz, u.xyz), e_v = volumes(t, v, v, v);
     const float below_u = dot(t.plane, u.xyz), below_v = dot(t.plane, v);
+    const vec3 swing = 0.5 * (abs(e_u) + abs(e_v));
+    const float rise = 0.5 * (abs(below_u) + abs(below_v));
+    const bvec3 front = greaterThan(s.e, swing), back = lessThan(s.e, -swing);
+    if (s.below > rise || (any(front) && any(back))) return 0;
+    if (!t.masked && s.below < -rise && (all(front) || all(back))) return SAMPLE_BITS;
     uint bits = 0;
     for (int i = 0; i < SAMPLES; ++i) {
         const vec2 a = sub_pixel(i);

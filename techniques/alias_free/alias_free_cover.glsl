@@ -116,9 +116,8 @@ Seen see_triangle(LightMapLayer layer, vec3 p[3], float height)
     return s;
 }
 
-// How far, in cells, a triangle may lie from the cell of a sample that it darkens: half a cell where that is a footprint, whose middle's
-// cell it is.
-float reach_of(Seen s, GridLevel level) { return (SAMPLES > 1 ? 0.5 : 0.0) + 0.02 + s.rounding * level.scale; }
+// How far, in cells, a triangle may lie from the cell of a sample that it darkens: a footprint is listed in its middle's cell.
+float reach_of(Seen s, GridLevel level) { return (SAMPLES > 1 ? FOOTPRINT_REACH : 0.0) + 0.02 + s.rounding * level.scale; }
 
 vec4 covering_vertex(LightMapLayer layer, GridLevel level, vec3 p[3], float height, uint corner)
 {
