@@ -61,5 +61,5 @@ void main()
     if (!drawn) return;
     // closed meshes: those that the light sees close the near end, the others the far one, and sides count twice
     const int weight = c.edges == VOLUME_EDGES_CLOSED ? 2 * side : 1;
-    caps[place] = VolumeCap(p[0], side > 0 ? p[1] : p[2], side > 0 ? p[2] : p[1], weight, block.slot, i.first_primitive + triangle);
+    caps[place] = VolumeCap(p[0], side > 0 ? p[1] : p[2], side > 0 ? p[2] : p[1], weight, block.slot);
 }

@@ -8,8 +8,8 @@ layout(set = 0, binding = 1, scalar) readonly buffer Caps { VolumeCap caps[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 layout(location = 0) flat out vec4 plane; // of the face, relative to the eye; 0 at infinity
-layout(location = 1) flat out int weight;
-layout(location = 2) flat out uint primitive; // of a near cap
+layout(location = 1) flat out vec4 rim; // of a quad: the plane across it through its edge
+layout(location = 2) flat out int weight;
 
 invariant gl_Position; // faces that share an edge share its pixels
 
@@ -21,18 +21,22 @@ vec4 clip_of(vec3 p, bool infinite)
     return clip;
 }
 
-vec4 plane_of(vec3 n, vec3 p) { return vec4(n, -dot(n, p - c.view.eye)); }
+vec4 plane_of(vec3 n, vec3 p)
+{
+    n /= max(length(n), 1e-30);
+    return vec4(n, -dot(n, p - c.view.eye));
+}
 
 void main()
 {
     const uint kind = gl_InstanceIndex;
-    primitive = VOLUME_ASIDE;
-    plane = vec4(0.0);
+    plane = rim = vec4(0.0);
     if (kind == VOLUME_QUADS) {
         const VolumeQuad q = quads[gl_VertexIndex / 6];
         const uint corner = uint[](0, 1, 2, 0, 2, 3)[gl_VertexIndex % 6];
         weight = q.weight;
         plane = plane_of(cross(q.to - q.from, light_from(c.light, q.from)), q.from);
+        rim = plane_of(cross(plane.xyz, q.to - q.from), q.from);
         gl_Position = clip_of(corner == 0 || corner == 3 ? q.to : q.from, corner >= 2);
         return;
     }
@@ -40,7 +44,6 @@ void main()
     const uint k = gl_VertexIndex % 3;
     weight = cap.weight;
     if (kind == VOLUME_NEAR_CAPS) {
-        primitive = cap.primitive;
         plane = plane_of(cross(cap.b - cap.a, cap.c - cap.a), cap.a);
         gl_Position = clip_of(k == 0 ? cap.a : k == 1 ? cap.b : cap.c, false);
         if (c.edges == VOLUME_EDGES_CLOSED && weight < 0) gl_Position = vec4(2.0, 2.0, 0.0, 1.0);

@@ -83,10 +83,10 @@ private:
 
     gpu::ImageId list_receivers()
     {
-        const gpu::ImageId receivers = image(VK_FORMAT_R32G32B32A32_UINT, "receivers");
+        const gpu::ImageId receivers = image(VK_FORMAT_R32G32B32A32_SFLOAT, "receivers");
         passes_.fullscreen({.name = "receivers",
             .program = &device_.raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_receivers.frag"),
-            .bindings = {{frame_.gbuffer.depth, Use::sample}, {frame_.gbuffer.normal, Use::sample}, {frame_.gbuffer.primitive, Use::sample}},
+            .bindings = {{frame_.gbuffer.depth, Use::sample}, {frame_.gbuffer.normal, Use::sample}},
             .constants = task_,
             .colors = {{receivers, gpu::Load::discard}}});
         return receivers;

@@ -21,7 +21,6 @@
 #define VOLUME_NEAR_CAPS 1
 #define VOLUME_FAR_CAPS 2
 #define VOLUME_DRAWS 3
-#define VOLUME_ASIDE 0xffffffffu // in place of a receiver's primitive: no light reaches it anyway, or nothing is there
 
 SHARED_BEGIN(shaders)
 
@@ -53,7 +52,6 @@ struct VolumeCap {
     vec3 a, b, c; ///< world; counter-clockwise seen from the light
     int weight;
     uint slot;
-    uint primitive;
 };
 
 /// What is counted where a frame's counters are asked for.
