@@ -91,10 +91,10 @@ private:
         SceneGpu& scene = frame.resources;
         passes.compute({.name = "rays",
             .program = &device_.compute_program("techniques/hybrid_map_volume/hybrid_map_volume_rays.comp"),
-            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
-                {frame.output, gpu::Use::store}, scene.tlas(), {passes.import(scene.instances()), gpu::Use::load},
-                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(scene.indices()), gpu::Use::load},
-                {passes.import(scene.attributes()), gpu::Use::load}, {marked.pixels, gpu::Use::load}},
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {frame.output, gpu::Use::store},
+                scene.tlas(), {passes.import(scene.instances()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
+                {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.attributes()), gpu::Use::load},
+                {marked.pixels, gpu::Use::load}},
             .constants = marked.constants,
             .textures = &scene.textures(),
             .indirect = marked.groups});
