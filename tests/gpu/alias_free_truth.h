@@ -69,14 +69,7 @@ public:
         return dvec3(std::get<scene::PointLight>(light_.shape).position) - p;
     }
 
-private:
-    static bool in_plane(const Triangle& own, const Triangle& other)
-    {
-        const dvec3 n = normal(own);
-        const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
-        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < 1e-9 * glm::length(n);
-    }
-
+    /// Whether one triangle stands between p and the light.
     Verdict behind(const Triangle& t, dvec3 p) const
     {
         const dvec3 n = normal(t);
@@ -93,6 +86,14 @@ private:
         if (least < -margin && most > margin) return Verdict::lit;
         const bool inside = least > margin || most < -margin;
         return inside && height < -margin && std::abs(light_height) > margin ? Verdict::dark : Verdict::unknown;
+    }
+
+private:
+    static bool in_plane(const Triangle& own, const Triangle& other)
+    {
+        const dvec3 n = normal(own);
+        const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
+        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < 1e-9 * glm::length(n);
     }
 
     const scene::Light& light_;

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// No aid may take away a shadow: against every triangle of every instance, in double precision, at every pixel.
+#include "alias_free_truth.h"
+
+#include "shadow/light_constants.h"
+#include "shadow/parts/volume_culling.h"
+
+#include <bit>
+
+namespace gnomon {
+namespace {
+
+using shadow::parts::VolumeCulling;
+
+class VolumeCullingTest : public gpu::TechniqueTest {
+protected:
+    static constexpr gpu::Size picture{96, 64};
+
+    struct Result {
+        std::vector<uint32_t> slots; ///< by instance of the scene
+        shaders::VolumeBands bands;
+        std::vector<float> primitive;
+        uint32_t casters_culled = 0, bands_culled = 0;
+    };
+
+    static Result cull(const scene::Scene& s, const scene::View& view, const scene::Light& light, const VolumeCulling& culling)
+    {
+        shadow::SceneGpu scene(device(), s);
+        gpu::Image primitive = image("primitive", VK_FORMAT_R32_UINT, view.size), out = image("out", VK_FORMAT_R32_SFLOAT, view.size);
+        gpu::Buffer slots = storage<uint32_t>("slots", scene.slot_count()), counts = storage<uint32_t>("counts", 2);
+        gpu::PassList passes(device());
+        const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
+        std::vector<shadow::Counter> counters;
+        const shadow::Frame frame{s, view, light, scene, g, passes.import(out), 0, nullptr, &counters};
+        const shadow::parts::CulledVolumes culled = shadow::parts::cull_volumes(passes, frame, culling);
+        passes.copy(g.primitive, passes.import(primitive));
+        passes.copy(culled.slots, passes.import(slots), scene.slot_count() * sizeof(uint32_t));
+        for (size_t i = 0; i < 2; ++i) passes.copy(counters.at(i).buffer, passes.import(counts), 4, counters.at(i).offset, 4 * i);
+        device().submit(std::move(passes));
+        Result r;
+        r.bands = culled.bands;
+        r.primitive = device().read_back(primitive).values;
+        const std::vector<uint32_t> by_slot = values<uint32_t>(slots);
+        r.slots.resize(s.instances.size());
+        for (const auto& d : scene.drawables()) r.slots[d.instance] = by_slot[d.slot];
+        r.casters_culled = values<uint32_t>(counts)[0], r.bands_culled = values<uint32_t>(counts)[1];
+        return r;
+    }
+
+    /// What the pixels of a picture lose. `alone`: each caster must be there that darkens a pixel; else one of them.
+    struct Loss {
+        size_t lost = 0, dark = 0;
+    };
+    static Loss losses(const scene::Scene& s, const scene::View& view, const scene::Light& light, const Result& r, bool alone)
+    {
+        const HardTruth truth(s, light);
+        std::vector<size_t> instance_of;
+        for (size_t i = 0; i < s.instances.size(); ++i)
+            instance_of.insert(instance_of.end(), s.meshes[size_t(s.instances[i].mesh)].indices.size() / 3, i);
+        Loss loss;
+        for (size_t i = 0; i < r.primitive.size(); ++i) {
+            if (r.primitive[i] >= 4294967040.0f) continue;
+            const auto own = size_t(r.primitive[i]);
+            const vec2 pixel(float(i % size_t(view.size.width)) + 0.5f, float(i / size_t(view.size.width)) + 0.5f);
+            const scene::Ray ray = scene::view_ray(view, pixel);
+            dvec3 n = glm::normalize(HardTruth::normal(truth.triangles()[own]));
+            const double facing = glm::dot(n, dvec3(ray.direction));
+            if (std::abs(facing) < 0.02) continue;
+            if (facing > 0) n = -n;
+            const double along = glm::dot(n, truth.triangles()[own][0] - dvec3(ray.origin)) / glm::dot(n, dvec3(ray.direction));
+            const dvec3 p = dvec3(ray.origin) + along * dvec3(ray.direction);
+            if (glm::dot(n, glm::normalize(truth.to_light(p))) < 1e-3 || !scene::reaches(light, vec3(p))) continue;
+            bool dark = false, kept = false, all_kept = true;
+            for (size_t t = 0; t < truth.triangles().size(); ++t) {
+                const Verdict v = t == own ? Verdict::lit : truth.behind(truth.triangles()[t], p);
+                if (v == Verdict::lit) continue;
+                const bool here = (r.slots[instance_of[t]] >> band_of(r.bands, p) & 1u) != 0;
+                dark = dark || v == Verdict::dark;
+                kept = kept || here;
+                all_kept = all_kept && (here || v == Verdict::unknown);
+            }
+            loss.dark += dark;
+            loss.lost += dark && !(alone ? all_kept : kept);
+        }
+        return loss;
+    }
+    static uint32_t band_of(const shaders::VolumeBands& bands, dvec3 p)
+    {
+        uint32_t band = 0;
+        for (uint32_t b = 1; b < bands.count; ++b) band += glm::dot(glm::dvec4(bands.planes[b]), glm::dvec4(p, 1)) >= 0;
+        return band;
+    }
+
+    /// Instances of a few triangles each, at all heights, some below the floor, some huge.
+    static scene::Scene crowd(uint32_t seed, int instances)
+    {
+        scene::Scene s = gpu::floor_scene(4);
+        std::mt19937 random(seed);
+        const auto uniform = [&](float low, float high) { return low + (high - low) * float(random() >> 8) * 0x1p-24f; };
+        for (int i = 0; i < instances; ++i) {
+            scene::Mesh m;
+            const float size = 0.1f + 2.0f * std::pow(uniform(0, 1), 4.0f);
+            for (uint32_t k = 0; k < 3u * (1u + uint32_t(i) % 3u); ++k) {
+                m.indices.push_back(k);
+                m.positions.push_back(size * vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+            }
+            scene::complete(m);
+            s.instances.push_back({int(s.meshes.size()), glm::translate(mat4(1), {uniform(-3, 3), uniform(-2, 3), uniform(-3, 3)})});
+            s.meshes.push_back(m);
+        }
+        return s;
+    }
+
+    /// Two floors, the upper of which covers the lower, with small squares below, between and above.
+    static scene::Scene two_floors(int each)
+    {
+        scene::Scene s = gpu::floor_scene(4);
+        gpu::add_quad(s, {0, 2, 0}, 4);
+        for (int i = 0; i < 3 * each; ++i)
+            gpu::add_quad(s, {float(i % 7) - 3, 2.0f * float(i / each) - 1 + 0.1f * float(i % 3), float(i % 5) - 2}, 0.2f);
+        return s;
+    }
+
+    static constexpr const char* lights[] = {"sun,elevation=50,azimuth=20,angle=0", "sun,elevation=8,azimuth=200,angle=0",
+        "point,position=1/2.5/1,radius=0", "point,position=0/0.3/0,radius=0", "spot,position=5/6/2,target=0/0/0,cone=50,radius=0",
+        "spot,position=0/1/0,target=2/0/1,cone=150,radius=0", "sun,direction=-4/-3/-6,angle=0"};
+};
+
+constexpr VolumeCulling casters{.casters = true, .max = false, .clamp = false};
+constexpr VolumeCulling most{.casters = false, .max = true, .clamp = false};
+constexpr VolumeCulling clamped{.casters = false, .max = false, .clamp = true};
+constexpr VolumeCulling all{};
+
+TEST_F(VolumeCullingTest, NoPixelLosesItsShadow)
+{
+    const scene::Camera cameras[] = {{.eye = {4, 4, 6}, .target = {0, 0.5f, 0}}, {.eye = {0.5f, 0.6f, 0.5f}, .target = {3, 0.2f, -1}},
+        {.eye = {0, 6, 1}, .target = {0, 0, 0}, .half_height = 3}, {.eye = {1, -3, 2}, .target = {0, 0, 0}}};
+    size_t dark = 0, culled = 0, bands = 0;
+    for (uint32_t seed = 0; seed < 28; ++seed) {
+        const scene::Scene s = crowd(seed, 80);
+        const scene::View view = scene::make_view(cameras[seed % 4], picture, s.bounds());
+        const char* text = lights[seed % 7];
+        const scene::Light light = scene::parse_light(text, {}, s.bounds());
+        for (const VolumeCulling& by : {casters, most, clamped, all, VolumeCulling{.casters = false, .bands = 32}}) {
+            const Result r = cull(s, view, light, by);
+            const Loss loss = losses(s, view, light, r, !by.casters);
+            EXPECT_EQ(loss.lost, 0u) << text << ", seed " << seed << ", casters " << by.casters << ", max " << by.max << ", clamp "
+                                     << by.clamp;
+            dark += loss.dark, culled += r.casters_culled, bands += r.bands_culled;
+            EXPECT_EQ(r.casters_culled, size_t(std::count(r.slots.begin(), r.slots.end(), 0u)));
+        }
+    }
+    EXPECT_GT(dark, 20000u);
+    EXPECT_GT(culled, 28u * 5 * 10);
+    EXPECT_GT(bands, 28u * 3 * 80 * 4);
+}
+
+TEST_F(VolumeCullingTest, FloorsHideWhatTheyShould)
+{
+    constexpr int each = 30;
+    const scene::Scene s = two_floors(each);
+    const auto left = [&](const Result& r, int from, int to) {
+        int count = 0;
+        for (int i = 2 + from; i < 2 + to; ++i) count += r.slots[size_t(i)] != 0;
+        return count;
+    };
+    for (const char* text :
+        {"sun,elevation=70,azimuth=30,angle=0", "point,position=0/7/0,radius=0", "spot,position=1/7/1,target=0/0/0,cone=100"}) {
+        const scene::Light light = scene::parse_light(text, {}, s.bounds());
+        // from above the upper floor alone is seen: no receiver lies behind what is below it
+        const scene::View above = scene::make_view(gpu::camera_above({0, 2, 0}, 4, 3), picture, s.bounds());
+        for (const VolumeCulling& by : {casters, most, clamped, all}) {
+            const Result r = cull(s, above, light, by);
+            EXPECT_EQ(left(r, 0, 2 * each), 0) << text;
+            EXPECT_GE(left(r, 2 * each, 3 * each), each * 2 / 3) << text;
+        }
+        // between the floors all is dark by the upper one, whatever else stands before it
+        const scene::View between = scene::make_view({.eye = {0, 1.6f, 1}, .target = {0, 0, 0}}, picture, s.bounds());
+        EXPECT_GE(left(cull(s, between, light, most), each, 2 * each), each / 4) << text;
+        const Result r = cull(s, between, light, casters);
+        EXPECT_LE(left(r, each, 2 * each), each / 5) << text << ": but for what lies under the floor's diagonal";
+        EXPECT_EQ(left(r, 0, each), 0);
+        EXPECT_NE(r.slots[1], 0u) << "the upper floor";
+    }
+}
+
+TEST_F(VolumeCullingTest, BandsFollowTheLight)
+{
+    const scene::Scene s = gpu::floor_scene(4);
+    const scene::View view = scene::make_view({.eye = {0, 3, 8}, .target = {0, 0, 0}}, {96, 64}, s.bounds());
+    const auto bands = [&](const char* light) { return shadow::parts::volume_bands(view, scene::parse_light(light, {}, s.bounds()), 8); };
+    // planes are those of columns where the light shines to the side, of rows where it shines down; borders are whole pixels
+    const auto pixel = [&](const vec4& plane, int axis, float at) {
+        vec2 xy(10.5f, 10.5f);
+        xy[axis] = at;
+        const scene::Ray ray = scene::view_ray(view, xy);
+        const vec4 p(ray.origin + 5.0f * ray.direction, 1);
+        return glm::dot(plane, p);
+    };
+    for (const auto& [light, axis] : {std::pair{"sun,direction=1/-0.2/0,angle=0", 0}, {"sun,direction=0/-1/-0.1,angle=0", 1},
+             {"point,position=9/0/0,radius=0", 0}, {"point,position=0/9/0,radius=0", 1}}) {
+        const shaders::VolumeBands b = bands(light);
+        ASSERT_EQ(b.count, 8u);
+        const int size = axis == 0 ? 96 : 64;
+        for (uint32_t i = 1; i < b.count; ++i) {
+            const float border = float(size) * float(i) / 8;
+            EXPECT_GT(pixel(b.planes[i], axis, border + 0.01f), 0) << light;
+            EXPECT_LT(pixel(b.planes[i], axis, border - 0.01f), 0) << light;
+        }
+    }
+    const scene::View tiny = scene::make_view({.eye = {0, 3, 8}, .target = {0, 0, 0}}, {1, 1}, s.bounds());
+    const scene::Light sun = scene::parse_light("sun", {}, s.bounds());
+    EXPECT_EQ(shadow::parts::volume_bands(tiny, sun, 16).count, 1u);
+    EXPECT_EQ(shadow::parts::volume_bands(view, sun, 1000).count, 32u);
+    EXPECT_EQ(cull(s, tiny, sun, all).slots.size(), 1u);
+}
+
+} // namespace
+} // namespace gnomon
