@@ -8,7 +8,7 @@
 
 // In which bands each instance may darken a receiver: those marked in a texel that its box covers, with receivers behind the box's nearest
 // point.
-layout(local_size_x = VOLUME_GROUP) in;
+layout(local_size_x = VOLUME_CULL_GROUP) in;
 layout(set = 0, binding = 0, scalar) readonly buffer Casters { Caster casters[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer Mask { uint everywhere; VolumeTexel texels[]; };
 layout(set = 0, binding = 2, scalar) buffer Slots { uint slots[]; };
@@ -65,7 +65,7 @@ uint bands_in(int index, Cover box, uint lane)
     }
     const uint nearest = ordered_from_float(box.nearest), width = uint(last.x - first.x + 1), count = width * uint(last.y - first.y + 1);
     uint bands = 0u;
-    for (uint k = lane; k < count; k += VOLUME_GROUP) {
+    for (uint k = lane; k < count; k += VOLUME_CULL_GROUP) {
         const int x = first.x + int(k % width), y = first.y + int(k / width);
         const VolumeTexel texel = texels[(index * VOLUME_MASK_SIZE + y) * VOLUME_MASK_SIZE + x];
         if (texel.reach >= nearest) bands |= texel.bands;

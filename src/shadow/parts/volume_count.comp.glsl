@@ -5,7 +5,7 @@
 #include "src/shadow/parts/volume_mask.shared.h"
 
 // How many casters are dropped, and of those that are left how many bands.
-layout(local_size_x = VOLUME_GROUP) in;
+layout(local_size_x = VOLUME_CULL_GROUP) in;
 layout(set = 0, binding = 0, scalar) readonly buffer Casters { Caster casters[]; };
 layout(set = 0, binding = 1, scalar) readonly buffer Slots { uint slots[]; };
 layout(set = 0, binding = 2, scalar) buffer Counts { uint casters_culled, bands_culled; };

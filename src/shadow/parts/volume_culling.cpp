@@ -138,7 +138,7 @@ CulledVolumes cull_volumes(gpu::PassList& passes, const Frame& frame, const Volu
         .bindings = {{passes.import(scene.casters()), gpu::Use::load}, {mask, gpu::Use::load}, {out.slots, gpu::Use::update},
             gpu::Binding(windows, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
         .constants = constants,
-        .threads = {row * VOLUME_GROUP, (constants.slots + row - 1) / std::max(row, 1u), 1}});
+        .threads = {row * VOLUME_CULL_GROUP, (constants.slots + row - 1) / std::max(row, 1u), 1}});
     if (!frame.counters) return out;
     const gpu::BufferId counts = make_buffer(passes, 2, "culled volumes");
     passes.compute({.name = "count culled",

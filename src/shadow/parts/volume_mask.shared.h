@@ -9,7 +9,7 @@
 /// Texels a side of a layer's mask of receivers.
 #define VOLUME_MASK_SIZE 256
 /// Threads of a group, which takes one slot.
-#define VOLUME_GROUP 64
+#define VOLUME_CULL_GROUP 64
 
 SHARED_BEGIN(shaders)
 
