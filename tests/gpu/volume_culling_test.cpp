@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No aid may take away a shadow: against every triangle of every instance, in double precision, at every pixel.
-#include "alias_free_truth.h"
+#include "hard_truth.h"
 
 #include "shadow/light_constants.h"
 #include "shadow/parts/volume_culling.h"

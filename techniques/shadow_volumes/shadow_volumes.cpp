@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadow volumes (Crow 1977) counted in the picture (Heidmann 1991) by the edges of any mesh (Aldridge and Woods 2004; Kim et al. 2008).
+#include "techniques/shadow_volumes/shadow_volumes.shared.h"
+
+#include "shadow/parts/volumes.h"
+
+namespace gnomon::techniques::shadow_volumes {
+
+namespace {
+
+using namespace shadow;
+
+void describe(Params& p, Fields& fields)
+{
+    fields.choice("edges", p.edges, {"closed", "bergeron", "any"},
+        "Edges from which quads are drawn: silhouettes, right for closed meshes; those and open borders, right where no edge has more than "
+        "two triangles; or as many quads at each edge as do not cancel, always right.");
+    fields.choice("count", p.count, {"zpass", "zfail", "zp_plus", "pp_zp"},
+        "Where counting begins: at the eye, taken as lit; at infinity; at the near plane, counted from the light; or at the eye, counted by "
+        "a test of each triangle.");
+}
+
+class ShadowVolumes final : public TechniqueWith<Params> {
+    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    {
+        parts::resolve_volumes(passes, frame,
+            parts::count_volumes(
+                passes, frame, casters_, {.edges = parts::VolumeEdges(params.edges), .count = parts::VolumeCount(params.count)}));
+    }
+    uint64_t kept_bytes() const override { return casters_.bytes(); }
+
+    parts::VolumeCasters casters_;
+};
+
+} // namespace
+
+} // namespace gnomon::techniques::shadow_volumes
+
+extern const gnomon::shadow::TechniqueInfo technique_shadow_volumes;
+const gnomon::shadow::TechniqueInfo technique_shadow_volumes = {
+    .id = "shadow_volumes",
+    .title = "Shadow volumes",
+    .family = "hard shadows",
+    .cite = "Crow 1977; Heidmann 1991; Aldridge, Woods 2004",
+    .output = gnomon::shadow::Output::visibility,
+    .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
+    .exact = true,
+    .counts = true,
+    .params = [] { return gnomon::shadow::param_table(gnomon::techniques::shadow_volumes::describe); },
+    .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::shadow_volumes::ShadowVolumes>();
+    },
+};
