@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No aid may take away a shadow: against every triangle of every instance, in double precision, at every pixel.
-#include "hard_truth.h"
+#include "exact_suite.h"
 
 #include "shadow/light_constants.h"
 #include "shadow/parts/volume_culling.h"
@@ -12,34 +12,31 @@ namespace {
 
 using shadow::parts::VolumeCulling;
 
-class VolumeCullingTest : public gpu::TechniqueTest {
+class VolumeCullingTest : public ExactTest {
 protected:
     static constexpr gpu::Size picture{96, 64};
 
     struct Result {
         std::vector<uint32_t> slots; ///< by instance of the scene
         shaders::VolumeBands bands;
-        std::vector<float> primitive;
         uint32_t casters_culled = 0, bands_culled = 0;
     };
 
     static Result cull(const scene::Scene& s, const scene::View& view, const scene::Light& light, const VolumeCulling& culling)
     {
         shadow::SceneGpu scene(device(), s);
-        gpu::Image primitive = image("primitive", VK_FORMAT_R32_UINT, view.size), out = image("out", VK_FORMAT_R32_SFLOAT, view.size);
+        gpu::Image out = image("out", VK_FORMAT_R32_SFLOAT, view.size);
         gpu::Buffer slots = storage<uint32_t>("slots", scene.slot_count()), counts = storage<uint32_t>("counts", 2);
         gpu::PassList passes(device());
         const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
         std::vector<shadow::Counter> counters;
         const shadow::Frame frame{s, view, light, scene, g, passes.import(out), 0, nullptr, &counters};
         const shadow::parts::CulledVolumes culled = shadow::parts::cull_volumes(passes, frame, culling);
-        passes.copy(g.primitive, passes.import(primitive));
         passes.copy(culled.slots, passes.import(slots), scene.slot_count() * sizeof(uint32_t));
         for (size_t i = 0; i < 2; ++i) passes.copy(counters.at(i).buffer, passes.import(counts), 4, counters.at(i).offset, 4 * i);
         device().submit(std::move(passes));
         Result r;
         r.bands = culled.bands;
-        r.primitive = device().read_back(primitive).values;
         const std::vector<uint32_t> by_slot = values<uint32_t>(slots);
         r.slots.resize(s.instances.size());
         for (const auto& d : scene.drawables()) r.slots[d.instance] = by_slot[d.slot];
@@ -51,24 +48,15 @@ protected:
     struct Loss {
         size_t lost = 0, dark = 0;
     };
-    static Loss losses(const scene::Scene& s, const scene::View& view, const scene::Light& light, const Result& r, bool alone)
+    static Loss losses(const scene::Scene& s, const scene::Camera& camera, const scene::Light& light, const Result& r, bool alone)
     {
         const HardTruth truth(s, light);
         std::vector<size_t> instance_of;
         for (size_t i = 0; i < s.instances.size(); ++i)
             instance_of.insert(instance_of.end(), s.meshes[size_t(s.instances[i].mesh)].indices.size() / 3, i);
         Loss loss;
-        for (size_t i = 0; i < r.primitive.size(); ++i) {
-            if (r.primitive[i] >= 4294967040.0f) continue;
-            const auto own = size_t(r.primitive[i]);
-            const vec2 pixel(float(i % size_t(view.size.width)) + 0.5f, float(i / size_t(view.size.width)) + 0.5f);
-            const scene::Ray ray = scene::view_ray(view, pixel);
-            dvec3 n = glm::normalize(HardTruth::normal(truth.triangles()[own]));
-            const double facing = glm::dot(n, dvec3(ray.direction));
-            if (std::abs(facing) < 0.02) continue;
-            if (facing > 0) n = -n;
-            const double along = glm::dot(n, truth.triangles()[own][0] - dvec3(ray.origin)) / glm::dot(n, dvec3(ray.direction));
-            const dvec3 p = dvec3(ray.origin) + along * dvec3(ray.direction);
+        for (const auto& [own, p, n, facing, to_edge] : receivers(truth, s, camera, picture)) {
+            if (own == SIZE_MAX || facing < 0.02) continue;
             if (glm::dot(n, glm::normalize(truth.to_light(p))) < 1e-3 || !scene::reaches(light, vec3(p))) continue;
             bool dark = false, kept = false, all_kept = true;
             for (size_t t = 0; t < truth.triangles().size(); ++t) {
@@ -143,7 +131,7 @@ TEST_F(VolumeCullingTest, NoPixelLosesItsShadow)
         const scene::Light light = scene::parse_light(text, {}, s.bounds());
         for (const VolumeCulling& by : {casters, most, clamped, all, VolumeCulling{.casters = false, .bands = 32}}) {
             const Result r = cull(s, view, light, by);
-            const Loss loss = losses(s, view, light, r, !by.casters);
+            const Loss loss = losses(s, cameras[seed % 4], light, r, !by.casters);
             EXPECT_EQ(loss.lost, 0u) << text << ", seed " << seed << ", casters " << by.casters << ", max " << by.max << ", clamp "
                                      << by.clamp;
             dark += loss.dark, culled += r.casters_culled, bands += r.bands_culled;

@@ -43,8 +43,8 @@ public:
         instances_ = passes.import(frame.resources.instances());
         positions_ = passes.import(frame.resources.positions());
         indices_ = passes.import(frame.resources.indices());
-        quads_ = buffer(passes, uint64_t(std::min(casters.edge_block_count, step_blocks)) * VOLUME_GROUP * sizeof(shaders::VolumeQuad),
-            "volume quads");
+        quads_ = buffer(
+            passes, uint64_t(std::min(casters.edge_block_count, step_blocks)) * VOLUME_GROUP * sizeof(shaders::VolumeQuad), "volume quads");
         caps_ = buffer(passes, uint64_t(std::min(casters.triangle_block_count, step_blocks)) * VOLUME_GROUP * sizeof(shaders::VolumeCap),
             "volume caps");
         sides_ = buffer(passes, uint64_t(casters.primitives) * 4, "triangles' sides");
@@ -131,8 +131,8 @@ private:
             passes_.compute({.name = "caps",
                 .program = &device_.compute_program("src/shadow/parts/volume_caps.comp", modes),
                 .bindings = {{instances_, Use::load}, {indices_, Use::load}, {positions_, Use::load},
-                    {passes_.import(casters_.triangle_blocks), Use::load}, {sides_, Use::load}, {caps_, Use::store},
-                    {draws_, Use::update}, {work_, Use::update}},
+                    {passes_.import(casters_.triangle_blocks), Use::load}, {sides_, Use::load}, {caps_, Use::store}, {draws_, Use::update},
+                    {work_, Use::update}},
                 .constants = of_triangles,
                 .threads = groups(of_triangles.blocks)});
     }
