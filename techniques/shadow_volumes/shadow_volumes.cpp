@@ -16,22 +16,37 @@ void describe(Params& p, Fields& fields)
         "Edges from which quads are drawn: silhouettes, right for closed meshes; those and open borders, right where no edge has more than "
         "two triangles; or as many quads at each edge as do not cancel, always right.");
     fields.choice("count", p.count, {"zpass", "zfail", "zp_plus", "pp_zp"},
-        "Where counting begins: at the eye, taken as lit; at infinity; at the near plane, counted from the light; or at the eye, counted "
-        "by "
+        "Where counting begins: at the eye, taken as lit; at infinity; at the near plane, counted from the light; or at the eye, counted by "
         "a test of each triangle.");
+    fields.choice("counter", p.counter, {"auto", "stencil", "blend"},
+        "What counts: a stencil of 8 bits, only where fewer than 256 triangles cast; additions to a float image; or the faster one that is "
+        "safe.");
+    fields.flag("log_alpha", p.log_alpha,
+        "Transmittance in place of visibility: semitransparent casters let light through by the colour and alpha of their material.");
+    fields.flag("scissor", p.scissor, "A spot's volumes are drawn only where its cone is seen; the picture is the same.");
 }
 
 class ShadowVolumes final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        parts::resolve_volumes(passes, frame,
-            parts::count_volumes(
-                passes, frame, casters_, {.edges = parts::VolumeEdges(params.edges), .count = parts::VolumeCount(params.count)}));
+        const parts::VolumeSettings settings{.edges = parts::VolumeEdges(params.edges),
+            .count = parts::VolumeCount(params.count),
+            .counter = parts::VolumeCounter(params.counter),
+            .transmittance = params.log_alpha != 0,
+            .scissor = params.scissor != 0};
+        parts::resolve_volumes(passes, frame, settings, parts::count_volumes(passes, frame, casters_, settings));
     }
     uint64_t kept_bytes() const override { return casters_.bytes(); }
 
     parts::VolumeCasters casters_;
 };
+
+Output output_of(std::span<const std::byte> bytes)
+{
+    Params params;
+    memcpy(&params, bytes.data(), sizeof(params));
+    return params.log_alpha ? Output::transmittance : Output::visibility;
+}
 
 } // namespace
 
@@ -44,6 +59,7 @@ const gnomon::shadow::TechniqueInfo technique_shadow_volumes = {
     .family = "hard shadows",
     .cite = "Crow 1977; Heidmann 1991; Aldridge, Woods 2004",
     .output = gnomon::shadow::Output::visibility,
+    .output_of = gnomon::techniques::shadow_volumes::output_of,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
     .counts = true,

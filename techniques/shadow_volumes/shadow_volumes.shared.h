@@ -8,6 +8,9 @@ TECHNIQUE_BEGIN(shadow_volumes)
 struct Params {
     int edges DEFAULT(2); ///< parts::VolumeEdges
     int count DEFAULT(1); ///< parts::VolumeCount
+    int counter DEFAULT(0); ///< parts::VolumeCounter
+    int log_alpha DEFAULT(0); ///< 0 or 1
+    int scissor DEFAULT(1); ///< 0 or 1
 };
 
 SHARED_END

@@ -17,6 +17,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Sides { int sides[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Caps { VolumeCap caps[]; };
 layout(set = 0, binding = 6, scalar) buffer Draws { uint draws[4 * VOLUME_DRAWS]; };
 layout(set = 0, binding = 7, scalar) buffer Work { VolumeWork work; };
+layout(set = 0, binding = 8, scalar) readonly buffer SlotBands { uint slot_bands[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 // Counting from the eye, a cap counts only where the eye sees through it: it is then not in the depth buffer. That is so for triangles
@@ -42,7 +43,7 @@ void main()
     const VolumeBlock block = blocks[index];
     const Instance i = instances[block.slot];
     const uint triangle = block.first + gl_LocalInvocationIndex;
-    bool drawn = gl_LocalInvocationIndex < block.count;
+    bool drawn = gl_LocalInvocationIndex < block.count && (c.bands.count == 0 || slot_bands[block.slot] != 0);
     vec3 p[3] = vec3[](vec3(0.0), vec3(0.0), vec3(0.0));
     int side = 1;
     if (drawn) {

@@ -13,9 +13,9 @@ layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 layout(location = 0) flat in vec4 plane;
 layout(location = 1) flat in vec4 rim;
-layout(location = 2) flat in int weight;
+layout(location = 2) flat in vec4 weight;
 
-layout(location = 0) out float change;
+layout(location = 0) out vec4 change;
 
 // Whether the eye's ray meets the face before the receiver. Not by interpolated depth, which is off by units in the last place of the
 // face's largest, behind the eye for most: by the sides of the face's plane on which eye and receiver lie. Caps through the receiver
@@ -32,9 +32,8 @@ void main()
 {
     const vec4 receiver = texelFetch(receivers, ivec2(gl_FragCoord.xy), 0);
     if (COUNTED) atomicAdd(work.fragments, 1);
-    change = 0.0;
+    change = vec4(0.0);
     if (receiver.w < 0.0 || crossed_before(receiver) != (c.count != VOLUME_ZFAIL)) discard;
     if (COUNTED) atomicAdd(work.updates, 1);
-    const int entering = gl_FrontFacing ? weight : -weight;
-    change = float(c.count == VOLUME_ZFAIL ? -entering : entering);
+    change = gl_FrontFacing != (c.count == VOLUME_ZFAIL) ? weight : -weight;
 }

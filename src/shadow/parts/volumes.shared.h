@@ -2,6 +2,7 @@
 #ifndef GNOMON_VOLUMES_SHARED_H
 #define GNOMON_VOLUMES_SHARED_H
 #include "shaders/frame.shared.h"
+#include "src/shadow/parts/volume_culling.shared.h"
 
 #define VOLUME_GROUP 64
 // VolumeEdge::second
@@ -21,6 +22,10 @@
 #define VOLUME_NEAR_CAPS 1
 #define VOLUME_FAR_CAPS 2
 #define VOLUME_DRAWS 3
+// Logarithms to the base 2 are counted in these parts, down to the clearest that is told from opaque: 2^24 of them add up exactly, which
+// are 128 crossings of the darkest.
+#define VOLUME_LOG_PARTS 8192
+#define VOLUME_LEAST_LOG -16
 
 SHARED_BEGIN(shaders)
 
@@ -66,6 +71,7 @@ struct VolumeTask {
     uint edges; ///< VOLUME_EDGES_*
     uint count; ///< VOLUME_ZPASS ...
     uint far_caps; ///< 0 or 1
+    VolumeBands bands; ///< none: count 0
 };
 
 SHARED_END
