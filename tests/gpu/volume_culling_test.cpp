@@ -2,10 +2,14 @@
 // No aid may take away a shadow: against every triangle of every instance, in double precision, at every pixel.
 #include "exact_suite.h"
 
-#include "shadow/light_constants.h"
+#include "scene/load.h"
 #include "shadow/parts/volume_culling.h"
 
-#include <bit>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+extern const gnomon::shadow::TechniqueInfo technique_shadow_volumes;
 
 namespace gnomon {
 namespace {
@@ -83,18 +87,15 @@ protected:
     static scene::Scene crowd(uint32_t seed, int instances)
     {
         scene::Scene s = gpu::floor_scene(4);
-        std::mt19937 random(seed);
-        const auto uniform = [&](float low, float high) { return low + (high - low) * float(random() >> 8) * 0x1p-24f; };
+        Uniform uniform(seed);
         for (int i = 0; i < instances; ++i) {
             scene::Mesh m;
             const float size = 0.1f + 2.0f * std::pow(uniform(0, 1), 4.0f);
             for (uint32_t k = 0; k < 3u * (1u + uint32_t(i) % 3u); ++k) {
                 m.indices.push_back(k);
-                m.positions.push_back(size * vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+                m.positions.push_back(size * uniform.in_cube());
             }
-            scene::complete(m);
-            s.instances.push_back({int(s.meshes.size()), glm::translate(mat4(1), {uniform(-3, 3), uniform(-2, 3), uniform(-3, 3)})});
-            s.meshes.push_back(m);
+            add_mesh(s, std::move(m), glm::translate(mat4(1), 3.0f * uniform.in_cube() + vec3(0, 0.5f, 0)));
         }
         return s;
     }
@@ -109,6 +110,10 @@ protected:
         return s;
     }
 
+    /// From above, within the volumes, orthographic, from below.
+    inline static const scene::Camera cameras[]
+        = {{.eye = {4, 4, 6}, .target = {0, 0.5f, 0}}, {.eye = {0.5f, 0.6f, 0.5f}, .target = {3, 0.2f, -1}},
+            {.eye = {0, 6, 1}, .target = {0, 0, 0}, .half_height = 3}, {.eye = {1, -3, 2}, .target = {0, 0, 0}}};
     static constexpr const char* lights[] = {"sun,elevation=50,azimuth=20,angle=0", "sun,elevation=8,azimuth=200,angle=0",
         "point,position=1/2.5/1,radius=0", "point,position=0/0.3/0,radius=0", "spot,position=5/6/2,target=0/0/0,cone=50,radius=0",
         "spot,position=0/1/0,target=2/0/1,cone=150,radius=0", "sun,direction=-4/-3/-6,angle=0"};
@@ -121,8 +126,6 @@ constexpr VolumeCulling all{};
 
 TEST_F(VolumeCullingTest, NoPixelLosesItsShadow)
 {
-    const scene::Camera cameras[] = {{.eye = {4, 4, 6}, .target = {0, 0.5f, 0}}, {.eye = {0.5f, 0.6f, 0.5f}, .target = {3, 0.2f, -1}},
-        {.eye = {0, 6, 1}, .target = {0, 0, 0}, .half_height = 3}, {.eye = {1, -3, 2}, .target = {0, 0, 0}}};
     size_t dark = 0, culled = 0, bands = 0;
     for (uint32_t seed = 0; seed < 28; ++seed) {
         const scene::Scene s = crowd(seed, 80);
@@ -201,6 +204,68 @@ TEST_F(VolumeCullingTest, BandsFollowTheLight)
     EXPECT_EQ(shadow::parts::volume_bands(tiny, sun, 16).count, 1u);
     EXPECT_EQ(shadow::parts::volume_bands(view, sun, 1000).count, 32u);
     EXPECT_EQ(cull(s, tiny, sun, all).slots.size(), 1u);
+}
+
+/// none, casters, max, clamp, all
+constexpr double ways[] = {0, 1, 2, 3, 4};
+
+TEST_F(VolumeCullingTest, NoBitOfThePictureChanges)
+{
+    double dark = 0;
+    for (uint32_t seed = 0; seed < 28; ++seed) {
+        const scene::Scene s = crowd(100 + seed, 60);
+        for (const Values& values : {Values{{"counter", 2}}, Values{{"counter", 1}}, Values{{"log_alpha", 1}, {"edges", 1}}}) {
+            const auto with = [&](double way, double bands) {
+                Values all_values = values;
+                all_values.insert(all_values.end(), {{"culling", way}, {"bands", bands}});
+                return TechniqueTest::draw(technique_shadow_volumes, s, cameras[seed % 4], picture, lights[seed % 7], all_values);
+            };
+            const std::vector<float> whole = with(0, 16);
+            dark += 1 - mean(whole);
+            for (const double way : ways) {
+                const std::vector<float> got = with(way, 3 + seed);
+                size_t changed = 0, lighter = 0;
+                for (size_t i = 0; i < got.size(); ++i) changed += got[i] != whole[i], lighter += got[i] > whole[i];
+                EXPECT_EQ(changed, 0u) << lights[seed % 7] << ", seed " << seed << ", " << values[0].first << ", way " << way << ", lighter " << lighter;
+            }
+        }
+    }
+    EXPECT_GT(dark, 3.0);
+}
+
+TEST_F(VolumeCullingTest, LessIsCountedInScenes)
+{
+    const char* given = std::getenv("GNOMON_SHARED");
+    const std::filesystem::path shared = given ? given : GNOMON_SOURCE "/../shared";
+    struct Case {
+        std::string scene;
+        double updates; ///< of those without culling, at most
+    };
+    std::vector<Case> cases = {{"citadel", 0.75}, {"colonnade", 0.65}};
+    if (const auto file = shared / "scenes/crytek_sponza.glb"; std::filesystem::exists(file)) cases.push_back({file.string(), 0.6});
+    for (const Case& c : cases) {
+        const scene::Scene s = scene::load(c.scene);
+        const scene::Camera camera = s.cameras.empty() ? scene::fit_camera(s.bounds()) : s.cameras[0];
+        std::vector<uint64_t> updates;
+        std::vector<float> first;
+        for (const double way : ways) {
+            const char* sun = "sun,elevation=42,azimuth=130,angle=0";
+            const Values values{{"culling", way}};
+            updates.push_back(count(technique_shadow_volumes, s, camera, picture, sun, values).at("stencil_updates"));
+            const std::vector<float> got = TechniqueTest::draw(technique_shadow_volumes, s, camera, picture, sun, values);
+            if (first.empty()) first = got;
+            EXPECT_EQ(got, first) << c.scene << ", " << way;
+        }
+        RecordProperty(std::filesystem::path(c.scene).stem().string(),
+            std::to_string(updates[0]) + " " + std::to_string(updates[1]) + " " + std::to_string(updates[2]) + " "
+                + std::to_string(updates[3]) + " " + std::to_string(updates[4]));
+        for (const size_t way : {1, 2, 3}) {
+            EXPECT_LE(updates[way], updates[0]) << c.scene;
+            EXPECT_LE(updates[4], updates[way]) << c.scene;
+        }
+        EXPECT_LE(double(updates[4]), c.updates * double(updates[0]))
+            << c.scene << ": " << updates[0] << " " << updates[1] << " " << updates[2] << " " << updates[3] << " " << updates[4];
+    }
 }
 
 } // namespace
