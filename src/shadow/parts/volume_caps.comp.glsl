@@ -49,7 +49,7 @@ void main()
     if (drawn) {
         for (uint k = 0; k < 3; ++k) p[k] = placed(i, positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]]);
         side = sides[i.first_primitive + triangle];
-        drawn = c.count == VOLUME_ZFAIL || seen_through(block, p);
+        drawn = side != 0 && (c.count == VOLUME_ZFAIL || c.count == VOLUME_ZP_PLUS || seen_through(block, p));
     }
     const uvec4 mask = subgroupBallot(drawn);
     uint place = 0;

@@ -18,8 +18,12 @@ layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 bool before(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
-// From p to the eye; an orthographic one is at infinity.
-vec3 eye_from(vec3 p) { return c.view.orthographic != 0 ? -c.view.forward : c.view.eye - p; }
+// From p to where counting begins: an orthographic eye is at infinity; or at the other end of its rays, which all meet there.
+vec3 eye_from(vec3 p)
+{
+    if (c.count == VOLUME_ZFAIL) return c.view.forward;
+    return c.view.orthographic != 0 ? -c.view.forward : c.view.eye - p;
+}
 
 // On which side of the plane through an edge and the light the eye lies. Both triangles at an edge start from the same end of it, so that
 // an eye in the plane is in the volume of one.
@@ -46,7 +50,7 @@ void main()
         for (uint k = 0; k < 3; ++k) p[k] = placed(i, positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]]);
         const int side = sides[i.first_primitive + triangle];
         const bool left = side > 0;
-        inside = dot(cross(p[1] - p[0], p[2] - p[0]), eye_from(p[0])) * float(side) < 0.0 && left_of(p[0], p[1]) == left
+        inside = side != 0 && dot(cross(p[1] - p[0], p[2] - p[0]), eye_from(p[0])) * float(side) < 0.0 && left_of(p[0], p[1]) == left
             && left_of(p[1], p[2]) == left && left_of(p[2], p[0]) == left;
     }
     const int count = subgroupAdd(inside ? 1 : 0);

@@ -33,6 +33,8 @@ void clip_face(vec4 p, uint slot)
 }
 #endif
 
+const vec4 nowhere = vec4(2.0, 2.0, 0.0, 1.0);
+
 // A point, or where the light's ray through it ends.
 vec4 clip_of(vec3 point, bool infinite, uint slot)
 {
@@ -61,7 +63,7 @@ void main()
         weight = weight_of(weights[q.slot], q.weight);
         plane = plane_of(cross(q.to - q.from, light_from(c.light, q.from)), q.from);
         rim = plane_of(cross(plane.xyz, q.to - q.from), q.from);
-        gl_Position = clip_of(corner == 0 || corner == 3 ? q.to : q.from, corner >= 2, q.slot);
+        gl_Position = plane.xyz == vec3(0.0) || c.along_view != 0 ? nowhere : clip_of(corner == 0 || corner == 3 ? q.to : q.from, corner >= 2, q.slot);
         return;
     }
     const VolumeCap cap = caps[gl_VertexIndex / 3];
@@ -72,5 +74,5 @@ void main()
     weight = weight_of(weights[cap.slot], abs(cap.weight));
     if (!far) plane = plane_of(cross(cap.b - cap.a, cap.c - cap.a), cap.a);
     const vec3 p = k == 0 ? cap.a : (k == 1) != far ? cap.b : cap.c; // the far end is seen from the other side
-    gl_Position = drawn ? clip_of(p, far, cap.slot) : vec4(2.0, 2.0, 0.0, 1.0);
+    gl_Position = drawn ? clip_of(p, far && c.along_view == 0, cap.slot) : nowhere;
 }

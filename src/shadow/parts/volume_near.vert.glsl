@@ -4,10 +4,8 @@
 #include "src/shadow/parts/volume_sides.glsl"
 #include "src/shadow/parts/volume_weights.glsl"
 
-layout(location = 0) in vec3 position;
-
-layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Weights { ivec4 weights[]; };
+layout(set = 0, binding = 0, scalar) readonly buffer Caps { VolumeCap caps[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Weights { ivec4 weights[]; }; // by slot
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 layout(location = 0) flat out vec4 weight;
@@ -17,8 +15,8 @@ out float gl_ClipDistance[1];
 // height over the plane, those of L and x meet at N(x) L - N(L) x in homogeneous coordinates.
 void main()
 {
-    const uint slot = instance_slot(gl_InstanceIndex);
-    const vec3 x = placed(instances[slot], position) - c.view.eye;
+    const VolumeCap cap = caps[gl_VertexIndex / 3];
+    const vec3 x = (gl_VertexIndex % 3 == 0 ? cap.a : gl_VertexIndex % 3 == 1 ? cap.b : cap.c) - c.view.eye;
     const bool sun = c.light.kind == LIGHT_DIRECTIONAL;
     const vec4 light = sun ? vec4(-c.light.direction, 0.0) : vec4(c.light.position - c.view.eye, 1.0);
     const float height = dot(c.view.forward, x) - c.view.near, of_light = dot(c.view.forward, light.xyz) - c.view.near * light.w;
@@ -27,5 +25,5 @@ void main()
     gl_Position = c.view.clip_from_world * vec4(met.xyz + met.w * c.view.eye, met.w);
     gl_Position.z = 0.0;
     gl_ClipDistance[0] = -front * height;
-    weight = weight_of(weights[slot], 1);
+    weight = weight_of(weights[cap.slot], 1);
 }

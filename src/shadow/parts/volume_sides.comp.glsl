@@ -23,5 +23,5 @@ void main()
     const uint triangle = block.first + gl_LocalInvocationIndex;
     vec3 p[3];
     for (uint k = 0; k < 3; ++k) p[k] = placed(i, positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]]);
-    sides[i.first_primitive + triangle] = light_side(c.light, p[0], p[1], p[2]);
+    sides[i.first_primitive + triangle] = light_side(c.light, p[0], p[1], p[2], c.edges == VOLUME_EDGES_CLOSED);
 }

@@ -20,8 +20,16 @@ vec3 light_from(Light light, vec3 p)
     return ray;
 }
 
-// 1 where the light lies before the triangle or in its plane, else -1. Which of the two rounding makes it does not matter, as long as
-// all edges of the triangle are told the same: its volume is then flat.
-int light_side(Light light, vec3 a, vec3 b, vec3 c) { return dot(cross(b - a, c - a), light_from(light, a)) >= 0.0 ? 1 : -1; }
+// 1 where the light lies before the triangle, -1 behind it; 0 in its plane, as far as can be told: its volume is then flat, and left out as
+// a whole. So are triangles with corners that are no numbers. Of closed meshes no triangle may be left out.
+int light_side(Light light, vec3 a, vec3 b, vec3 c, bool closed)
+{
+    const vec3 u = b - a, v = c - a, ray = light_from(light, a);
+    const float side = dot(cross(u, v), ray);
+    // roundings of the product; and of the corners' and a near light's places
+    const float rounding = 4e-7 * length(ray) + (light.kind == LIGHT_DIRECTIONAL ? 0.0 : 1.2e-7 * (length(a) + length(light.position)));
+    if (!closed && !(abs(side) > length(u) * length(v) * rounding)) return 0;
+    return side >= 0.0 ? 1 : -1;
+}
 
 #endif

@@ -61,8 +61,7 @@ public:
         task_.view = view_constants(frame.view, frame.index);
         task_.light = light_constants(frame.light, frame.resources.bounds());
         task_.edges = uint32_t(settings.edges), task_.count = uint32_t(settings.count);
-        // a sun's volumes end in one point
-        task_.far_caps = settings.count == VolumeCount::zfail && frame.light.kind() != scene::LightKind::directional;
+        set_ends();
         if (settings.bands && settings.slot_bands) task_.bands = *settings.bands;
         instances_ = passes.import(frame.resources.instances());
         positions_ = passes.import(frame.resources.positions());
@@ -89,12 +88,17 @@ public:
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
         find_sides();
-        if (settings_.count == VolumeCount::pp_zp) count_at_eye();
-        if (settings_.count == VolumeCount::zp_plus) count_at_near_plane(out);
+        if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
+        if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
         const uint32_t most = std::max({casters_.edge_block_count, casters_.triangle_block_count, 1u});
         for (uint32_t first = 0; first < most; first += step_blocks) {
             make_faces(first);
-            draw_faces(out, first == 0 && settings_.count != VolumeCount::zp_plus ? gpu::Load::clear : gpu::Load::keep);
+            gpu::Load load = first == 0 ? gpu::Load::clear : gpu::Load::keep;
+            if (settings_.count == VolumeCount::zp_plus) {
+                count_at_near_plane(out, load);
+                load = gpu::Load::keep;
+            }
+            draw_faces(out, load);
         }
         return out;
     }
@@ -105,6 +109,16 @@ private:
         return passes_.transient(gpu::ImageDesc{format, frame_.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name});
     }
     uint32_t coloured() const { return settings_.transmittance ? 1 : 0; }
+
+    /// Far caps close volumes where they end in more than a point. Parallel rays of the eye, too, end in one point, so that what lies there
+    /// is a number (count_at_eye); unless the light's are the same rays.
+    void set_ends()
+    {
+        const bool sun = frame_.light.kind() == scene::LightKind::directional, parallel = frame_.view.orthographic;
+        task_.along_view = parallel && sun && glm::length(glm::cross(task_.light.direction, task_.view.forward)) < 1e-6f;
+        const bool away = glm::dot(task_.light.direction, task_.view.forward) > 0.0f;
+        task_.far_caps = settings_.count == VolumeCount::zfail && (task_.along_view ? away : !sun && !parallel);
+    }
 
     void count_work()
     {
@@ -152,26 +166,29 @@ private:
         passes_.compute(std::move(pass));
     }
 
-    void count_at_eye()
+    void count_at_eye(const char* name)
     {
         if (casters_.triangle_block_count == 0) return;
         const gpu::SpecConstant modes[] = {{0, coloured()}};
-        gpu::ComputePass pass = each_triangle("volumes at the eye", "src/shadow/parts/volume_eye.comp", modes, 0, ~0u);
+        gpu::ComputePass pass = each_triangle(name, "src/shadow/parts/volume_eye.comp", modes, 0, ~0u);
         pass.bindings.insert(pass.bindings.end(), {{sides_, Use::load}, {weights_, Use::load}, {eye_, Use::update}});
         passes_.compute(std::move(pass));
     }
 
-    void count_at_near_plane(const VolumeCounts& out)
+    /// By all triangles that are caps.
+    void count_at_near_plane(const VolumeCounts& out, gpu::Load load)
     {
         const gpu::SpecConstant modes[] = {{0, coloured()}};
-        const unsigned sets = unsigned(draw_opaque | draw_masked) | (settings_.transmittance ? unsigned(draw_blended) : 0u);
         passes_.raster({.name = "volumes at the near plane",
             .program = &device_.raster_program("src/shadow/parts/volume_near.vert", "src/shadow/parts/volume_near.frag", modes),
-            .bindings = {{instances_, Use::load}, {weights_, Use::load}},
+            .bindings = {{caps_, Use::load}, {weights_, Use::load}},
             .constants = task_,
-            .colors = {{.image = out.counts, .blend = adding()}},
-            .streams = {SceneGpu::position_stream()},
-            .draw = [&scene = frame_.resources, sets](gpu::Encoder& encoder) { scene.draw(encoder, {.sets = sets}); }});
+            .colors = {{.image = out.counts, .load = load, .blend = adding()}},
+            .buffers = {{draws_, Use::indirect}},
+            .draw = [draws = draws_](gpu::Encoder& encoder) {
+                constexpr uint32_t one = sizeof(VkDrawIndirectCommand);
+                encoder.draw_indirect(draws, VOLUME_NEAR_CAPS * one, 1, one);
+            }});
     }
 
     /// Quads and caps of so many blocks from `first` on.

@@ -71,6 +71,7 @@ struct VolumeTask {
     uint edges; ///< VOLUME_EDGES_*
     uint count; ///< VOLUME_ZPASS ...
     uint far_caps; ///< 0 or 1
+    uint along_view; ///< 1 where all of the light's rays are those of the eye: quads are lines, and far caps right behind near ones
     VolumeBands bands; ///< none: count 0
 };
 
