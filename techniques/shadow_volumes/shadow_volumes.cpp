@@ -19,7 +19,8 @@ void describe(Params& p, Fields& fields)
         "Edges from which quads are drawn: silhouettes, right for closed meshes; those and open borders, right where no edge has more than "
         "two triangles; or as many quads at each edge as do not cancel, always right.");
     fields.choice("count", p.count, {"zpass", "zfail", "zp_plus", "pp_zp"},
-        "Where counting begins: at the eye, taken as lit; at infinity; at the near plane, counted from the light; or at the eye, counted by "
+        "Where counting begins: at the eye, taken as lit; at infinity; at the near plane, counted from the light; or at the eye, counted "
+        "by "
         "a test of each triangle.");
     fields.choice("counter", p.counter, {"auto", "stencil", "blend"},
         "What counts: a stencil of 8 bits, only where fewer than 256 triangles cast; additions to a float image; or the faster one that is "

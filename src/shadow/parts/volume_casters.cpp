@@ -23,7 +23,8 @@ template <class T> gpu::Buffer make_buffer(SceneGpu& scene, const std::vector<T>
 
 void add_blocks(std::vector<shaders::VolumeBlock>& blocks, uint32_t slot, uint32_t first, uint32_t count, uint32_t flags)
 {
-    for (uint32_t i = 0; i < count; i += VOLUME_GROUP) blocks.push_back({slot, first + i, std::min(count - i, uint32_t(VOLUME_GROUP)), flags});
+    for (uint32_t i = 0; i < count; i += VOLUME_GROUP)
+        blocks.push_back({slot, first + i, std::min(count - i, uint32_t(VOLUME_GROUP)), flags});
 }
 
 struct EdgeRange {

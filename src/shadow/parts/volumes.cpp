@@ -35,10 +35,7 @@ VkPipelineColorBlendAttachmentState adding()
     return add;
 }
 
-VkStencilOpState counting(VkStencilOp op)
-{
-    return {VK_STENCIL_OP_KEEP, op, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, 0xff, 0xff, 0};
-}
+VkStencilOpState counting(VkStencilOp op) { return {VK_STENCIL_OP_KEEP, op, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, 0xff, 0xff, 0}; }
 
 /// A count is at most the number of casting triangles, whose volumes each count once.
 bool takes_stencil(const VolumeSettings& s, const VolumeCasters& casters)
@@ -70,7 +67,8 @@ public:
         // all that one step can make; repeated for a stencil, three sides a triangle
         const uint64_t quads = uint64_t(std::min(casters.edge_block_count, step_blocks)) * VOLUME_GROUP;
         const uint64_t caps = uint64_t(std::min(casters.triangle_block_count, step_blocks)) * VOLUME_GROUP;
-        quads_ = buffer(passes, std::max(quads, uint64_t(stencil_ ? 3 * casters.triangles : 0)) * sizeof(shaders::VolumeQuad), "volume quads");
+        quads_
+            = buffer(passes, std::max(quads, uint64_t(stencil_ ? 3 * casters.triangles : 0)) * sizeof(shaders::VolumeQuad), "volume quads");
         caps_ = buffer(passes, caps * sizeof(shaders::VolumeCap), "volume caps");
         sides_ = buffer(passes, uint64_t(casters.primitives) * 4, "triangles' sides");
         draws_ = buffer(passes, VOLUME_DRAWS * sizeof(VkDrawIndirectCommand), "draws of volumes", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
@@ -147,7 +145,8 @@ private:
         return task;
     }
 
-    gpu::ComputePass each_triangle(const char* name, const char* shader, std::span<const gpu::SpecConstant> modes, uint32_t first, uint32_t most)
+    gpu::ComputePass each_triangle(
+        const char* name, const char* shader, std::span<const gpu::SpecConstant> modes, uint32_t first, uint32_t most)
     {
         const shaders::VolumeTask task = step(first, casters_.triangle_block_count, most);
         return {.name = name,
@@ -222,11 +221,11 @@ private:
         const gpu::SpecConstant modes[] = {{0, coloured()}, {1, counted_}};
         const bool clipped = settings_.count == VolumeCount::zp_plus || task_.bands.count > 0;
         gpu::RasterPass pass{.name = stencil_ ? "volumes (stencil)" : "volumes",
-            .program = &device_.raster_program(
-                clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert",
+            .program
+            = &device_.raster_program(clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert",
                 "src/shadow/parts/volume_faces.frag", modes),
-            .bindings = {{quads_, Use::load}, {caps_, Use::load}, {out.receivers, Use::sample}, {work_, Use::update},
-                {weights_, Use::load}},
+            .bindings
+            = {{quads_, Use::load}, {caps_, Use::load}, {out.receivers, Use::sample}, {work_, Use::update}, {weights_, Use::load}},
             .constants = task_,
             .buffers = {{draws_, Use::indirect}}};
         if (clipped) pass.bindings.push_back({slot_bands(), Use::load});
