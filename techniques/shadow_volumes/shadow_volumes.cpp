@@ -29,7 +29,8 @@ void describe(Params& p, Fields& fields)
         "Transmittance in place of visibility: semitransparent casters let light through by the colour and alpha of their material.");
     fields.flag("scissor", p.scissor, "A spot's volumes are drawn only where its cone is seen; the picture is the same.");
     fields.choice("culling", p.culling, {"none", "casters", "max", "clamp", "all"},
-        "Counting from infinity, which volumes are not drawn: none; those that add to shadows only, or to none that is seen; those behind "
+        "Counting from infinity in a perspective view, which volumes are not drawn: none; those that add to shadows only, or to none that "
+        "is seen; those behind "
         "all receivers; those outside of the bands of the picture in which they may darken something; all of these. The picture is the "
         "same.");
     fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands", "How many, with culling = clamp or all.");
@@ -37,11 +38,12 @@ void describe(Params& p, Fields& fields)
 
 enum class Culling : int { none, casters, max, clamp, all };
 
-/// Counted from the eye, a volume that the eye is in counts at every pixel: none can be left out.
+/// Where counting does not begin outside of all volumes, those that it begins in count at every pixel: none can be left out. So it is at
+/// the eye, and at infinity along parallel rays.
 std::optional<parts::CulledVolumes> cull(gpu::PassList& passes, const Frame& frame, const Params& params)
 {
     const auto by = Culling(params.culling);
-    if (by == Culling::none || parts::VolumeCount(params.count) != parts::VolumeCount::zfail) return {};
+    if (by == Culling::none || parts::VolumeCount(params.count) != parts::VolumeCount::zfail || frame.view.orthographic) return {};
     return parts::cull_volumes(passes, frame,
         {.casters = by == Culling::casters || by == Culling::all,
             .max = by == Culling::max || by == Culling::all,
