@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "shadow/light_constants.h"
 #include "shadow/parts/light_map.h"
+#include "shadow/parts/volume_culling.h"
+#include "shadow/parts/volumes.h"
 #include "shadow/technique.h"
 
 #include <cstddef>
@@ -22,17 +24,12 @@ void describe(Params& p, Fields& fields)
         "How far around a receiver's texel all others must agree with it: features of the shadow narrower than that may be missed.");
     fields.real("bias_scale", p.bias_scale, {0, 64}, "",
         "Times the depth before a receiver's plane, one metre a metre up to the farthest texel, in which a texel says nothing.");
-    fields.choice("exact", p.exact, {"rays"}, "What decides the pixels at which texels disagree: a ray each.");
+    fields.choice("exact", p.exact, {"rays", "volumes"},
+        "What decides the pixels at which texels disagree: a ray each, where the device has ray queries; or shadow volumes, by which "
+        "masked casters are solid.");
     fields.choice("culling", p.culling, {"none", "frustum", "receivers"},
         "Which instances are not drawn into the map: none; those outside of a layer; or, under a sun, all that lie between it and no "
         "receiver that is seen. Pictures are the same.");
-}
-
-std::string unavailable(const gpu::Device& device)
-{
-    if (device.info().ray_query) return {};
-    return "the device has no ray queries, which decide the pixels at a shadow's edge; use shadow_map, or alias_free for exact shadows "
-           "without rays";
 }
 
 struct Marked {
@@ -50,12 +47,20 @@ public:
 private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        const Marked marked = decide(passes, frame, params);
+        const bool rays = params.exact == 0 && device_.info().ray_query;
+        const gpu::ImageId decided = rays
+            ? frame.output
+            : passes.transient(gpu::ImageDesc{VK_FORMAT_R32_SFLOAT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "decided"});
+        const Marked marked = decide(passes, frame, params, decided, !rays);
         if (frame.counters) frame.counters->push_back({"boundary_pixels", marked.pixels, 0});
-        trace(passes, frame, marked);
+        if (rays)
+            trace(passes, frame, marked);
+        else
+            count_volumes(passes, frame, decided);
     }
 
-    Marked decide(gpu::PassList& passes, const Frame& frame, const Params& params)
+    /// `left_open`: marked pixels are -1.
+    Marked decide(gpu::PassList& passes, const Frame& frame, const Params& params, gpu::ImageId decided, bool left_open)
     {
         const uint64_t bytes = 4 * (1 + uint64_t(frame.view.size.area())), limit = device_.limits().maxStorageBufferRange;
         if (bytes > limit || frame.view.size.width > 0xffff || frame.view.size.height > 0xffff)
@@ -74,15 +79,15 @@ private:
             params.bias_scale};
         passes.fill(marked.pixels, 0, "no pixels");
         passes.fill(marked.groups, 0, "no groups");
-        const gpu::SpecConstant reach[] = {{0, uint32_t(params.reach)}};
+        const gpu::SpecConstant modes[] = {{0, uint32_t(params.reach)}, {1, left_open ? 1u : 0u}};
         passes.fullscreen({.name = "decide",
             .program
-            = &device_.raster_program("shaders/fullscreen.vert", "techniques/hybrid_map_volume/hybrid_map_volume_decide.frag", reach),
+            = &device_.raster_program("shaders/fullscreen.vert", "techniques/hybrid_map_volume/hybrid_map_volume_decide.frag", modes),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample},
                 gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {marked.pixels, gpu::Use::update},
                 {marked.groups, gpu::Use::update}},
             .constants = parts::with_map(marked.constants, map, offsetof(HybridConstants, map)),
-            .colors = {{frame.output}}});
+            .colors = {{decided}}});
         return marked;
     }
 
@@ -100,7 +105,22 @@ private:
             .indirect = marked.groups});
     }
 
+    /// Of casters alone that may darken a marked pixel.
+    void count_volumes(gpu::PassList& passes, const Frame& frame, gpu::ImageId decided)
+    {
+        parts::VolumeSettings settings{.decided = decided};
+        parts::CulledVolumes culled;
+        if (!frame.view.orthographic) { // see cull_volumes
+            culled = parts::cull_volumes(passes, frame, {.casters = false, .max = false, .clamp = true, .decided = decided});
+            settings.slot_bands = culled.slots, settings.bands = &culled.bands;
+        }
+        parts::resolve_volumes(passes, frame, settings, parts::count_volumes(passes, frame, casters_, settings));
+    }
+
+    uint64_t kept_bytes() const override { return casters_.bytes(); }
+
     gpu::Device& device_;
+    parts::VolumeCasters casters_; ///< made when first asked for
 };
 
 } // namespace
@@ -117,7 +137,6 @@ const gnomon::shadow::TechniqueInfo technique_hybrid_map_volume = {
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .counts = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::hybrid_map_volume::describe); },
-    .unavailable = gnomon::techniques::hybrid_map_volume::unavailable,
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::hybrid_map_volume::Hybrid>(device);
     },

@@ -15,6 +15,8 @@ layout(set = 1, binding = 0, scalar) uniform Constants { HybridConstants c; };
 
 layout(constant_id = 0) const int reach = 1;
 
+layout(constant_id = 1) const bool left_open = false; // -1 where a pixel is marked
+
 layout(location = 0) out float visibility;
 
 const int LIT = 1, DARK = 0, UNKNOWN = -1;
@@ -65,5 +67,7 @@ void main()
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
     const int answer = ask_map(r, select_layer(c.map.layout_kind, c.map.centre, c.map.axes, c.map.splits, r.p_world));
     visibility = answer == LIT ? 1.0 : 0.0;
-    if (answer == UNKNOWN) mark(uvec2(gl_FragCoord.xy));
+    if (answer != UNKNOWN) return;
+    if (left_open) visibility = -1.0;
+    mark(uvec2(gl_FragCoord.xy));
 }

@@ -74,12 +74,13 @@ gpu::BufferId mark_receivers(
     const uint64_t texels = uint64_t(VOLUME_MASK_SIZE) * VOLUME_MASK_SIZE * constants.map.layer_count;
     const gpu::BufferId mask = make_buffer(passes, 1 + texels * words, "receiver mask");
     const gpu::ImageId triangles = culling.casters ? draw_triangles(passes, frame, constants.map) : frame.gbuffer.normal;
-    const gpu::SpecConstant shadowed[] = {{0, uint32_t(culling.casters)}};
+    const gpu::SpecConstant modes[] = {{0, uint32_t(culling.casters)}, {1, culling.decided ? 1u : 0u}};
     gpu::RasterPass pass{.name = "receiver mask",
-        .program = &passes.device().raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_mask.frag", shadowed),
+        .program = &passes.device().raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_mask.frag", modes),
         .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {mask, gpu::Use::update},
             gpu::Binding(triangles, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {passes.import(scene.instances()), gpu::Use::load},
-            {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load}},
+            {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
+            {culling.decided ? culling.decided : frame.gbuffer.depth, gpu::Use::sample}},
         .constants = constants,
         .size = frame.view.size};
     pass.draw = [](gpu::Encoder& encoder) { encoder.draw(3); };

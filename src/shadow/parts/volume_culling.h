@@ -16,7 +16,7 @@ struct VolumeCulling {
     bool clamp = true; ///< the picture in bands across the light's direction, each with casters of its own (Lloyd et al. 2004: discrete
                        ///< clamping)
     int bands = 16; ///< at most VOLUME_MAX_BANDS
-    bool any() const { return casters || max || clamp; }
+    gpu::ImageId decided{}; ///< as VolumeSettings::decided (volumes.h): receivers count for nothing but where it is negative
 };
 
 struct CulledVolumes {

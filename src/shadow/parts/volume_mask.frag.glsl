@@ -16,8 +16,10 @@ layout(set = 0, binding = 3) uniform usampler2DArray triangle_image; // slot and
 layout(set = 0, binding = 4, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Indices { uint indices[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(set = 0, binding = 7) uniform sampler2D decided_image;
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeMaskConstants c; };
 
+layout(constant_id = 1) const bool some = false; // receivers count only where decided_image is negative
 layout(constant_id = 0) const bool shadowed = true; // whether receivers that are proven dark reach no further than what darkens them
 
 // Metres by which what is drawn of a volume may differ from the volume: a rasteriser's snapping of vertices (1/256 pixel) and the depth
@@ -56,6 +58,7 @@ float reach_of(Receiver r, LightMapLayer layer, int index, MapPoint m)
 
 void main()
 {
+    if (some && texelFetch(decided_image, ivec2(gl_FragCoord.xy), 0).r >= 0.0) return;
     Receiver r;
     float decided;
     if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, decided)) return;

@@ -85,6 +85,7 @@ public:
             : settings_.transmittance    ? VK_FORMAT_R32G32B32A32_SFLOAT
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
+        if (settings_.decided && !stencil_) undecided_ = draw_undecided();
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
@@ -130,12 +131,33 @@ private:
     gpu::ImageId list_receivers()
     {
         const gpu::ImageId receivers = image(VK_FORMAT_R32G32B32A32_SFLOAT, "receivers");
+        const gpu::SpecConstant some[] = {{0, settings_.decided ? 1u : 0u}};
         passes_.fullscreen({.name = "receivers",
-            .program = &device_.raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_receivers.frag"),
-            .bindings = {{frame_.gbuffer.depth, Use::sample}, {frame_.gbuffer.normal, Use::sample}},
+            .program = &device_.raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_receivers.frag", some),
+            .bindings = {{frame_.gbuffer.depth, Use::sample}, {frame_.gbuffer.normal, Use::sample},
+                {settings_.decided ? settings_.decided : frame_.gbuffer.depth, Use::sample}},
             .constants = task_,
             .colors = {{receivers, gpu::Load::discard}}});
         return receivers;
+    }
+
+    /// 1 in the stencil where something is to be counted: the rasteriser then turns all other fragments away before their shader runs.
+    gpu::ImageId draw_undecided()
+    {
+        const gpu::ImageId undecided = image(VK_FORMAT_D32_SFLOAT_S8_UINT, "undecided");
+        const VkStencilOpState one{VK_STENCIL_OP_KEEP, VK_STENCIL_OP_REPLACE, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, 0xff, 0xff, 1};
+        gpu::RasterPass pass{.name = "undecided",
+            .program = &device_.raster_program("shaders/fullscreen.vert", "src/shadow/parts/volume_undecided.frag"),
+            .bindings = {{settings_.decided, Use::sample}},
+            .depth = gpu::DepthTarget{.image = undecided,
+                .write = false,
+                .compare = VK_COMPARE_OP_ALWAYS,
+                .stencil = true,
+                .front = one,
+                .back = one},
+            .draw = [](gpu::Encoder& encoder) { encoder.draw(3); }};
+        passes_.raster(std::move(pass));
+        return undecided;
     }
 
     shaders::VolumeTask step(uint32_t first, uint32_t count, uint32_t most) const
@@ -242,6 +264,17 @@ private:
                 .back = zfail ? up : down};
         } else {
             pass.colors = {{.image = out.counts, .load = load, .blend = adding()}};
+            if (undecided_) {
+                const VkStencilOpState is_one{VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_EQUAL, 0xff, 0, 1};
+                pass.depth = gpu::DepthTarget{.image = undecided_,
+                    .load = gpu::Load::keep,
+                    .write = false,
+                    .store = false,
+                    .compare = VK_COMPARE_OP_ALWAYS,
+                    .stencil = true,
+                    .front = is_one,
+                    .back = is_one};
+            }
         }
         pass.draw = [draws = draws_, area = area()](gpu::Encoder& encoder) {
             encoder.scissor(area.x, area.y, area.width, area.height);
@@ -266,6 +299,7 @@ private:
     uint32_t counted_; ///< 0 or 1
     bool stencil_;
     shaders::VolumeTask task_{};
+    gpu::ImageId undecided_{}; ///< a stencil
     gpu::BufferId instances_, positions_, indices_, weights_, quads_, caps_, sides_, draws_, work_, eye_;
 };
 
