@@ -245,7 +245,7 @@ private:
         gpu::RasterPass pass{.name = stencil_ ? "volumes (stencil)" : "volumes",
             .program
             = &device_.raster_program(clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert",
-                "src/shadow/parts/volume_faces.frag", modes),
+                undecided_ ? "src/shadow/parts/volume_faces_open.frag" : "src/shadow/parts/volume_faces.frag", modes),
             .bindings
             = {{quads_, Use::load}, {caps_, Use::load}, {out.receivers, Use::sample}, {work_, Use::update}, {weights_, Use::load}},
             .constants = task_,
