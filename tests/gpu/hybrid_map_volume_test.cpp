@@ -6,6 +6,7 @@
 
 extern const gnomon::shadow::TechniqueInfo technique_hybrid_map_volume;
 extern const gnomon::shadow::TechniqueInfo technique_ray_traced;
+extern const gnomon::shadow::TechniqueInfo technique_shadow_volumes;
 
 namespace gnomon {
 namespace {
@@ -132,6 +133,35 @@ TEST_F(HybridMapVolume, WhatTheMapCannotTellIsAskedOfRays)
     const Difference small = from_rays(s, oblique, picture, "sun,elevation=50,azimuth=20,angle=0", {{"map_size", 16}, {"reach", 8}});
     EXPECT_EQ(small.wrong, 0u);
     EXPECT_GT(small.marked, uint64_t(picture.area()) / 2);
+}
+
+TEST_F(HybridMapVolume, VolumesDecideAsRaysDo)
+{
+    const scene::Scene s = sheets();
+    const scene::Camera level{.eye = {0, 6, 1}, .target = {0, 0, 0}, .half_height = 4}, within{.eye = {0, 0.4f, 3}, .target = {1, 0, 0}};
+    for (const scene::Camera& camera : {oblique, level, within})
+        for (const char* light : {"sun,elevation=50,azimuth=20,angle=0", "spot,position=5/6/2,target=0/0/0,cone=70,radius=0",
+                 "point,position=1/2.2/1,radius=0", "sun,elevation=2,azimuth=40,angle=0"})
+            for (const double size : {64., 512.}) {
+                const Difference d = from_rays(s, camera, picture, light, {{"map_size", size}, {"exact", 1}});
+                const Difference rays = from_rays(s, camera, picture, light, {{"map_size", size}});
+                EXPECT_EQ(d.marked, rays.marked);
+                EXPECT_LE(d.wrong, rays.wrong + 2) << light << ", " << size;
+            }
+}
+
+/// Fragments of volumes run their shader at marked pixels alone.
+TEST_F(HybridMapVolume, VolumesAreDrawnWhereTexelsDisagree)
+{
+    const scene::Scene s = sheets();
+    const char* sun = "sun,elevation=50,azimuth=20,angle=0";
+    const auto hybrid = count(technique_hybrid_map_volume, s, oblique, picture, sun, {{"exact", 1}});
+    const auto volumes = count(technique_shadow_volumes, s, oblique, picture, sun, {});
+    const double marked = double(hybrid.at("boundary_pixels")) / double(picture.area());
+    EXPECT_GT(marked, 0.005);
+    EXPECT_LT(marked, 0.1);
+    EXPECT_LT(double(hybrid.at("fragments")), 4 * marked * double(volumes.at("fragments")));
+    EXPECT_LE(hybrid.at("stencil_updates"), hybrid.at("fragments"));
 }
 
 } // namespace
