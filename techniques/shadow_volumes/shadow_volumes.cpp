@@ -2,7 +2,10 @@
 // Shadow volumes (Crow 1977) counted in the picture (Heidmann 1991) by the edges of any mesh (Aldridge and Woods 2004; Kim et al. 2008).
 #include "techniques/shadow_volumes/shadow_volumes.shared.h"
 
+#include "shadow/parts/volume_culling.h"
 #include "shadow/parts/volumes.h"
+
+#include <optional>
 
 namespace gnomon::techniques::shadow_volumes {
 
@@ -28,17 +31,41 @@ void describe(Params& p, Fields& fields)
     fields.flag("log_alpha", p.log_alpha,
         "Transmittance in place of visibility: semitransparent casters let light through by the colour and alpha of their material.");
     fields.flag("scissor", p.scissor, "A spot's volumes are drawn only where its cone is seen; the picture is the same.");
+    fields.choice("culling", p.culling, {"none", "casters", "max", "clamp", "all"},
+        "Counting from infinity in a perspective view, which volumes are not drawn: none; those that add to shadows only, or to none that "
+        "is seen; those behind "
+        "all receivers; those outside of the bands of the picture in which they may darken something; all of these. The picture is the "
+        "same.");
+    fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands", "How many, with culling = clamp or all.");
+}
+
+enum class Culling : int { none, casters, max, clamp, all };
+
+/// Where counting does not begin outside of all volumes, those that it begins in count at every pixel: none can be left out. So it is at
+/// the eye, and at infinity along parallel rays.
+std::optional<parts::CulledVolumes> cull(gpu::PassList& passes, const Frame& frame, const Params& params)
+{
+    const auto by = Culling(params.culling);
+    if (by == Culling::none || parts::VolumeCount(params.count) != parts::VolumeCount::zfail || frame.view.orthographic) return {};
+    return parts::cull_volumes(passes, frame,
+        {.casters = by == Culling::casters || by == Culling::all,
+            .max = by == Culling::max || by == Culling::all,
+            .clamp = by == Culling::clamp || by == Culling::all,
+            .bands = params.bands});
 }
 
 class ShadowVolumes final : public TechniqueWith<Params> {
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
+        const std::optional<parts::CulledVolumes> culled = cull(passes, frame, params);
         const parts::VolumeSettings settings{.edges = parts::VolumeEdges(params.edges),
             .count = parts::VolumeCount(params.count),
             .counter = parts::VolumeCounter(params.counter),
             .order = parts::VolumeOrder(params.order),
             .transmittance = params.log_alpha != 0,
-            .scissor = params.scissor != 0};
+            .scissor = params.scissor != 0,
+            .slot_bands = culled ? culled->slots : gpu::BufferId{},
+            .bands = culled ? &culled->bands : nullptr};
         parts::resolve_volumes(passes, frame, settings, parts::count_volumes(passes, frame, casters_, settings));
     }
     uint64_t kept_bytes() const override { return casters_.bytes(); }

@@ -12,6 +12,8 @@ struct Params {
     int order DEFAULT(0); ///< parts::VolumeOrder
     int log_alpha DEFAULT(0); ///< 0 or 1
     int scissor DEFAULT(1); ///< 0 or 1
+    int culling DEFAULT(0); ///< none, casters, max, clamp, all
+    int bands DEFAULT(16);
 };
 
 SHARED_END

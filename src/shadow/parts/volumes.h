@@ -48,6 +48,7 @@ struct VolumeSettings {
     bool scissor = true; ///< a spot's volumes only where its cone is seen
     gpu::BufferId slot_bands{}; ///< parts/volume_culling.h: where volumes need be drawn; counts of zfail only
     const shaders::VolumeBands* bands = nullptr;
+    gpu::ImageId decided{}; ///< r32f, of visibility that is known: nothing is counted but where it is negative
 };
 
 /// The casters of a scene as volumes need them, made once and kept between frames.
