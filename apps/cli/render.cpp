@@ -80,6 +80,7 @@ int render(const Render& options)
     lab::RenderSettings settings{.samples = options.samples,
         .repeats = options.repeats,
         .frame_index = uint32_t(options.frame),
+        .count = true,
         .aovs = {options.aovs.begin(), options.aovs.end()}};
     settings.lighting.ambient = options.ambient;
     const lab::Rendered rendered = lab::render(*device, scene, stage, choice, settings);
@@ -97,10 +98,12 @@ int render(const Render& options)
     }
     for (const lab::PassStats& pass : rendered.passes)
         json["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}});
+    if (!rendered.counts.empty()) json["counts"] = rendered.counts;
     if (options.common.json)
         fmt::print("{}\n", json.dump(1));
     else {
         for (const lab::PassStats& pass : rendered.passes) fmt::print("{:<32} {:>9.2f} ms\n", pass.name, pass.ms);
+        for (const auto& [name, count] : rendered.counts) fmt::print("{:<32} {:>9}\n", name, count);
         for (const auto& f : json["files"]) fmt::print("{}\n", f.get<std::string>());
     }
     return 0;

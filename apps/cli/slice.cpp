@@ -68,7 +68,7 @@ int slice(const Slice& options)
     nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}};
     write_both(exr, image, outline, json["files"]);
     if (options.truth) {
-        const base::Picture truth = lab::slice_truth(stage, slice, lab::truth_quantity(*choice.info), options.truth_samples);
+        const base::Picture truth = lab::slice_truth(stage, slice, lab::truth_quantity(choice), options.truth_samples);
         fs::path twin = exr;
         write_both(twin.replace_extension(".truth.exr"), truth, outline, json["files"]);
         double sum = 0;

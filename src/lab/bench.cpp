@@ -58,10 +58,10 @@ Bench bench(gpu::Device& device, const BenchOptions& options)
     out.reference_ms = before;
     for (const std::string& text : options.techniques) {
         const Choice choice = parse_choice(text);
-        BenchRow row{text, shadow::refusal(*choice.info, device, stage.lights.front()), 0, 0, 0, 0, 0, 0, 0, {}};
+        BenchRow row{text, shadow::refusal(*choice.info, device, stage.lights.front()), 0, 0, 0, 0, 0, 0, 0, {}, {}};
         if (row.skipped.empty()) {
-            const Rendered rendered = render(device, scene, stage, choice, {.repeats = options.repeats, .lit = false});
-            row.passes = rendered.passes;
+            const Rendered rendered = render(device, scene, stage, choice, {.repeats = options.repeats, .count = true, .lit = false});
+            row.passes = rendered.passes, row.counts = rendered.counts;
             for (const PassStats& pass : rendered.passes)
                 if (pass.name == "gbuffer") row.gbuffer_ms = pass.ms, row.gbuffer_deviation = pass.deviation;
             row.technique_ms = rendered.technique_ms, row.technique_deviation = rendered.technique_deviation;
@@ -100,6 +100,7 @@ std::string bench_table(const Bench& b)
                 row.gbuffer_ms, row.gbuffer_deviation, row.technique_ms, row.technique_deviation, row.ratio, row.dynamic_ratio,
                 row.reference_ratio);
         for (const PassStats& pass : row.passes) out += fmt::format("    {:<28} {:>9.2f} +-{:>6.2f}\n", pass.name, pass.ms, pass.deviation);
+        for (const auto& [name, count] : row.counts) out += fmt::format("    {:<28} {:>9}\n", name, count);
     }
     return out;
 }
@@ -117,6 +118,7 @@ nlohmann::ordered_json bench_json(const Bench& b)
             r.update(nlohmann::ordered_json{{"gbuffer_ms", row.gbuffer_ms}, {"gbuffer_deviation", row.gbuffer_deviation},
                 {"technique_ms", row.technique_ms}, {"technique_deviation", row.technique_deviation}, {"ratio", row.ratio},
                 {"dynamic_ratio", row.dynamic_ratio}, {"reference_ratio", row.reference_ratio}});
+        if (!row.counts.empty()) r["counts"] = row.counts;
         out["rows"].push_back(r);
     }
     return out;

@@ -25,6 +25,7 @@ struct BenchRow {
     double gbuffer_ms = 0, gbuffer_deviation = 0, technique_ms = 0, technique_deviation = 0;
     double ratio = 0, dynamic_ratio = 0, reference_ratio = 0; ///< the last: 0 where the reference does not take the light
     std::vector<PassStats> passes;
+    std::map<std::string, uint64_t> counts; ///< what it counts of its work
 };
 
 struct Bench {

@@ -19,7 +19,7 @@ std::string_view commit() { return GNOMON_COMMIT; }
 
 std::string unmeasurable(const Choice& choice, const gpu::Device& device, const scene::Light& light)
 {
-    const shadow::Output output = choice.info->output;
+    const shadow::Output output = output_of(choice);
     const std::string reason = shadow::refusal(*choice.info, device, light);
     if (!reason.empty() || output == shadow::Output::visibility || output == shadow::Output::transmittance) return reason;
     return fmt::format("{} writes {}, which has no truth here yet", choice.info->id, shadow::output_name(output));
@@ -88,7 +88,7 @@ private:
     void run_light(const scene::Light& light, base::Progress& progress)
     {
         references_.clear();
-        truth_lit_ = {};
+        truth_lit_.clear();
         if (!options_.reference.empty()) filter_ = filter_reference(device_, scene_, stage_, options_.reference);
         progress.advance();
         for (const Choice& choice : choices_) {
@@ -102,18 +102,19 @@ private:
 
     void run_choice(const Choice& choice, const scene::Light& light, Run& run)
     {
-        const truth::Reference& truth = reference(truth_quantity(*choice.info));
-        const Rendered rendered = render(
-            device_, scene_, stage_, choice, {.repeats = options_.repeats, .frame_index = options_.frame_index, .aovs = scored_aovs});
+        const truth::Reference& truth = reference(truth_quantity(choice));
+        const Rendered rendered = render(device_, scene_, stage_, choice,
+            {.repeats = options_.repeats, .frame_index = options_.frame_index, .count = true, .aovs = scored_aovs});
         base::Picture heat_map, flip_map;
         score(stage_, light, truth, rendered, run, {.filter = filter_.choice.empty() ? nullptr : &filter_, .heat_map = &heat_map});
-        if (truth_lit_.empty()) {
-            truth_lit_ = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
-            write("truth", truth_lit_, base::Encoding::srgb);
+        base::Picture& truth_lit = truth_lit_[truth_quantity(choice)];
+        if (truth_lit.empty()) {
+            truth_lit = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
+            write("truth", truth_lit, base::Encoding::srgb);
             write("truth.visibility", truth.visibility.mean, base::Encoding::linear);
         }
         const base::Picture lit = display(rendered.radiance, stage_);
-        run.metrics["flip"] = metrics::flip(lit, truth_lit_, &flip_map);
+        run.metrics["flip"] = metrics::flip(lit, truth_lit, &flip_map);
         add_times(run, rendered);
         write(run.technique, lit, base::Encoding::srgb);
         write(run.technique + ".visibility", judged_channels(rendered.images.front(), 1), base::Encoding::linear);
@@ -137,7 +138,7 @@ private:
     shadow::SceneGpu scene_;
     std::vector<Choice> choices_;
     std::map<truth::Quantity, truth::Reference> references_;
-    base::Picture truth_lit_;
+    std::map<truth::Quantity, base::Picture> truth_lit_;
     FilterReference filter_; ///< of the present light
     std::string light_;
     Comparison out_;

@@ -32,6 +32,7 @@ struct Run {
     std::vector<PassStats> passes;
     double technique_ms = 0, technique_deviation = 0;
     uint64_t bytes = 0;
+    std::map<std::string, uint64_t> counts; ///< of its work, by name; empty where it counts none
     std::map<std::string, double> metrics;
     std::string reference; ///< the choice behind the filter metrics; empty = they were not measured
     std::string reference_refused; ///< why, although one was given
@@ -57,7 +58,7 @@ Run new_run(const Stage&, const Choice&, const std::string& light);
 void add_times(Run&, const Rendered&); ///< passes, the technique's own time and memory
 
 /// The truth that judges this kind of output. Only for visibility and transmittance.
-truth::Quantity truth_quantity(const shadow::TechniqueInfo&);
+truth::Quantity truth_quantity(const Choice&);
 
 /// A technique's image as metrics take it: without the fourth channel of transmittance, which means nothing; and of one channel three times
 /// that one where truth has three, because the technique takes a light with an image as uniform.

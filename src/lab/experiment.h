@@ -69,6 +69,7 @@ Experiment read_experiment(const std::filesystem::path&);
 /// Column names that a row has besides the axes.
 const std::vector<std::string>& identity_columns(); ///< texts: technique, scene, camera, light, size
 const std::vector<std::string>& number_columns(); ///< ms, ms_deviation, mib, ..., and every metric; "pass:NAME" is one too, and
-                                                  ///< "pass:NAME+START*", the sum of passes by name or by their names' beginning
+                                                  ///< "pass:NAME+START*", the sum of passes by name or by their names' beginning;
+                                                  ///< "count:NAME" is one that the technique counts
 
 } // namespace gnomon::lab

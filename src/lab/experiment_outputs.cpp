@@ -17,7 +17,11 @@ bool holds(const std::vector<std::string>& names, const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_number(const std::string& name) { return holds(number_columns(), name) || (name.rfind("pass:", 0) == 0 && name.size() > 5); }
+bool is_number(const std::string& name)
+{
+    return holds(number_columns(), name) || (name.rfind("pass:", 0) == 0 && name.size() > 5)
+        || (name.rfind("count:", 0) == 0 && name.size() > 6);
+}
 
 class OutputReader {
 public:

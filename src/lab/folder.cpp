@@ -103,7 +103,7 @@ PromiseReport check_promises(
         shadow::SceneGpu scene(device, stage.scene);
         Run run = new_run(stage, choice, kind);
         const truth::Reference truth = truth::reference(
-            stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info), truth_cache);
+            stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(choice), truth_cache);
         const Rendered rendered = render(device, scene, stage, choice, {.repeats = 1, .lit = false, .aovs = scored_aovs});
         std::optional<FilterReference> filter;
         if (!own.reference.empty()) filter = filter_reference(device, scene, stage, own.reference);

@@ -59,8 +59,8 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
         shadow::SceneGpu scene(device, stage.scene);
         Run run = new_run(stage, choice, kind);
         const truth::Reference truth
-            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(info));
-        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5, .aovs = scored_aovs});
+            = truth::reference(stage.scene, stage.view, stage.lights.front(), {.samples = own.truth_samples}, truth_quantity(choice));
+        const Rendered rendered = render(device, scene, stage, choice, {.repeats = 5, .count = true, .aovs = scored_aovs});
         std::optional<FilterReference> filter;
         if (!own.reference.empty()) filter = filter_reference(device, scene, stage, own.reference);
         base::Picture heat;

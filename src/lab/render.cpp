@@ -37,6 +37,13 @@ gpu::Image make_image(gpu::Device& device, VkFormat format, base::Size size, con
     return device.image({format, size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name});
 }
 
+std::vector<uint32_t> words(const std::vector<std::byte>& bytes)
+{
+    std::vector<uint32_t> out(bytes.size() / 4);
+    memcpy(out.data(), bytes.data(), out.size() * 4);
+    return out;
+}
+
 class Renderer {
 public:
     Renderer(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
@@ -50,13 +57,14 @@ public:
             const std::string reason = refusal(*choice.info, device, light);
             if (!reason.empty()) base::fail("{}", reason);
             techniques_.push_back(choice.info->create(device));
-            targets_.images.push_back(make_image(device, output_format(*choice.info, light), stage.view.size, "technique's image"));
+            targets_.images.push_back(
+                make_image(device, output_format(*choice.info, choice.params.bytes(), light), stage.view.size, "technique's image"));
         }
         targets_.primitive = make_image(device, VK_FORMAT_R32_UINT, stage.view.size, "primitive copy");
         if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
     }
 
-    gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs)
+    gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs, std::vector<Counter>* counters = nullptr)
     {
         const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
         gpu::PassList passes(device_);
@@ -68,7 +76,7 @@ public:
             passes.group(std::string(choice_.info->id));
             parts::LightMap map{};
             techniques_[i]->record(
-                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame, &map}, choice_.params.bytes());
+                passes, Frame{stage_.scene, view, stage_.lights[i], scene_, g, output, frame, &map, counters}, choice_.params.bytes());
             passes.group("");
             if (i == 0 && aovs && aovs->wants_footprint()) {
                 if (map.constants.layer_count == 0)
@@ -78,13 +86,27 @@ public:
             shadowed.push_back({&stage_.lights[i], output});
         }
         passes.copy(g.primitive, passes.import(targets_.primitive), "copy primitive");
-        const bool composited = choice_.info->output == Output::visibility || choice_.info->output == Output::transmittance;
+        const Output output = output_of(choice_);
+        const bool composited = output == Output::visibility || output == Output::transmittance;
         if (settings_.lit)
             passes.copy(shade(passes, scene_, g, view,
                             composited ? std::span<const ShadowedLight>(shadowed) : std::span<const ShadowedLight>(), settings_.lighting),
                 passes.import(targets_.radiance), "copy radiance");
         if (aovs) aovs->record(passes, g);
+        if (counters) copy_counters(passes, *counters);
         return device_.submit(std::move(passes));
+    }
+
+    /// Of a frame of its own, so that counting slows no timed one.
+    std::map<std::string, uint64_t> count(uint32_t frame)
+    {
+        std::vector<Counter> counters;
+        draw(vec2(0), frame, nullptr, &counters);
+        std::map<std::string, uint64_t> out;
+        if (counters.empty()) return out;
+        const std::vector<uint32_t> values = words(device_.read_back(counted_));
+        for (size_t i = 0; i < counters.size(); ++i) out[counters[i].name] += values[i];
+        return out;
     }
 
     uint64_t kept_bytes() const
@@ -96,6 +118,14 @@ public:
     Targets& targets() { return targets_; }
 
 private:
+    void copy_counters(gpu::PassList& passes, const std::vector<Counter>& counters)
+    {
+        if (counters.empty()) return;
+        counted_ = device_.buffer({counters.size() * 4, 0, gpu::Memory::read_back, "counters"});
+        for (size_t i = 0; i < counters.size(); ++i)
+            passes.copy(counters[i].buffer, passes.import(counted_), 4, counters[i].offset, i * 4, "copy counter");
+    }
+
     gpu::Device& device_;
     SceneGpu& scene_;
     const Stage& stage_;
@@ -103,6 +133,7 @@ private:
     const RenderSettings& settings_;
     std::vector<std::unique_ptr<Technique>> techniques_;
     Targets targets_;
+    gpu::Buffer counted_;
 };
 
 struct Sums {
@@ -139,13 +170,6 @@ void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs,
     out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
 }
 
-std::vector<uint32_t> words(const std::vector<std::byte>& bytes)
-{
-    std::vector<uint32_t> out(bytes.size() / 4);
-    memcpy(out.data(), bytes.data(), out.size() * 4);
-    return out;
-}
-
 void add_rgb(base::Picture& sum, const base::Picture& rgba, float weight)
 {
     if (sum.empty()) sum = base::Picture(rgba.size, 3);
@@ -180,6 +204,8 @@ std::string choice_text(const Choice& choice)
     return out;
 }
 
+Output output_of(const Choice& choice) { return shadow::output(*choice.info, choice.params.bytes()); }
+
 Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
 {
     Rendered out;
@@ -196,6 +222,8 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     collect(out, runs, choice.info->id);
     const auto own = first.group_bytes.find(std::string(choice.info->id));
     out.technique_bytes = (own == first.group_bytes.end() ? 0 : own->second) + renderer.kept_bytes();
+
+    if (settings.count && choice.info->counts) out.counts = renderer.count(settings.frame_index);
 
     Targets& targets = renderer.targets();
     for (gpu::Image& image : targets.images) out.images.push_back(device.read_back(image));

@@ -22,6 +22,8 @@ struct Choice {
 Choice parse_choice(const std::string& text);
 std::string choice_text(const Choice&); ///< what parse_choice reads: the id, and the parameters that differ from their defaults
 
+shadow::Output output_of(const Choice&);
+
 /// Statistics of one pass over the repetitions.
 struct PassStats {
     std::string name;
@@ -34,6 +36,7 @@ struct RenderSettings {
     int repeats = 1; ///< timed repetitions of the first sample, after one warm-up when more than one
     int warm_up = 0; ///< frames before the timed ones; one at least where there is more than one repetition
     uint32_t frame_index = 0;
+    bool count = false; ///< one more frame, in which a technique that can counts its work
     bool lit = true; ///< shade; otherwise only the techniques' images are made
     std::set<std::string> aovs; ///< aov_names()
     shadow::LightingSettings lighting;
@@ -48,6 +51,7 @@ struct Rendered {
     std::map<std::string, base::Picture> aovs; ///< of the first sample
     std::vector<PassStats> passes; ///< common and technique's, in order; the technique's begin with its id and "/"
     double technique_ms = 0, technique_deviation = 0; ///< its own passes, all lights together
+    std::map<std::string, uint64_t> counts; ///< shadow::Counter by name, all lights together; empty unless asked for
     uint64_t technique_bytes = 0; ///< transients beyond the common ones and the images of the contract
 };
 

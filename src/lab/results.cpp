@@ -21,6 +21,7 @@ nlohmann::ordered_json run_json(const Run& run)
     out["technique_ms"] = run.technique_ms;
     out["technique_deviation"] = run.technique_deviation;
     out["bytes"] = run.bytes;
+    if (!run.counts.empty()) out["counts"] = run.counts;
     out["metrics"] = run.metrics;
     if (!run.reference.empty()) out["reference"] = run.reference;
     if (!run.reference_refused.empty()) out["reference_refused"] = run.reference_refused;

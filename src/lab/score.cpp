@@ -82,13 +82,13 @@ Run new_run(const Stage& stage, const Choice& choice, const std::string& light)
 
 void add_times(Run& run, const Rendered& rendered)
 {
-    run.passes = rendered.passes, run.bytes = rendered.technique_bytes;
+    run.passes = rendered.passes, run.bytes = rendered.technique_bytes, run.counts = rendered.counts;
     run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation;
 }
 
-truth::Quantity truth_quantity(const shadow::TechniqueInfo& info)
+truth::Quantity truth_quantity(const Choice& choice)
 {
-    return info.output == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
+    return output_of(choice) == shadow::Output::transmittance ? truth::Quantity::transmittance : truth::Quantity::visibility;
 }
 
 base::Picture judged_channels(const base::Picture& image, int truth_channels)

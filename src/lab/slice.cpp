@@ -101,8 +101,8 @@ base::Picture slice_image(gpu::Device& device, shadow::SceneGpu& scene, const St
     const scene::Light& light = stage.lights.front();
     const std::string reason = unmeasurable(choice, device, light);
     if (!reason.empty()) base::fail("{}", reason);
-    gpu::Image image = device.image(
-        {shadow::output_format(*choice.info, light), slice.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "technique's image"});
+    gpu::Image image = device.image({shadow::output_format(*choice.info, choice.params.bytes(), light), slice.view.size, 1, 1,
+        VK_SAMPLE_COUNT_1_BIT, false, "technique's image"});
     const std::unique_ptr<shadow::Technique> technique = choice.info->create(device);
     gpu::PassList passes(device);
     const shadow::GBuffer g = draw_receivers(passes, scene, stage, slice);

@@ -37,11 +37,12 @@ public:
         out.camera = cell.columns.at("camera");
         out.skipped = unmeasurable(cell.choice, device_, light);
         if (!out.skipped.empty()) return out;
-        Judge& judge = judge_of(truth_quantity(*cell.choice.info));
+        Judge& judge = judge_of(truth_quantity(cell.choice));
         const Rendered rendered = render(device_, *scene_, stage_, cell.choice,
             {.repeats = experiment_.repeats,
                 .warm_up = experiment_.warm_up,
                 .frame_index = experiment_.frame_index,
+                .count = true,
                 .lit = experiment_.flip,
                 .aovs = scored_aovs});
         score(stage_, light, judge.truth, rendered, out,

@@ -145,6 +145,7 @@ std::optional<double> Row::number(const std::string& column) const
     if (column == "ms_deviation") return number_at(*line, "technique_deviation");
     if (column == "gbuffer_ms") return pass_ms(*line, "", "gbuffer");
     if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/", column.substr(5));
+    if (column.rfind("count:", 0) == 0) return line->contains("counts") ? number_at(line->at("counts"), column.substr(6)) : std::nullopt;
     if (column == "passes") return double(own_passes(*line));
     if (column == "scored_pixels" || column == "excluded_pixels") return number_at(*line, column);
     if (column != "mib") return number_at(line->at("metrics"), column);

@@ -12,9 +12,14 @@ std::string_view output_name(Output output)
     return names[size_t(output)];
 }
 
-VkFormat output_format(const TechniqueInfo& info, const scene::Light& light)
+Output output(const TechniqueInfo& info, std::span<const std::byte> params)
 {
-    const bool grey = info.output == Output::visibility && !(info.textured && light.textured());
+    return info.output_of ? info.output_of(params) : info.output;
+}
+
+VkFormat output_format(const TechniqueInfo& info, std::span<const std::byte> params, const scene::Light& light)
+{
+    const bool grey = output(info, params) == Output::visibility && !(info.textured && light.textured());
     return grey ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
 }
 

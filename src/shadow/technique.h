@@ -40,6 +40,13 @@ inline constexpr unsigned point_lights = light_bit(scene::LightKind::point);
 inline constexpr unsigned area_lights = light_bit(scene::LightKind::rect) | light_bit(scene::LightKind::disk);
 inline constexpr unsigned all_lights = (1u << scene::light_kind_count) - 1;
 
+/// A whole number that a technique counted on the device while it made a frame.
+struct Counter {
+    std::string name; ///< in words joined by underscores: tile_tests, casters_culled; entries of one name are added up
+    gpu::BufferId buffer;
+    uint32_t offset = 0; ///< of a uint, in bytes
+};
+
 /// Everything a technique may read, and the one image that it writes. Valid during `record`.
 struct Frame {
     const scene::Scene& scene;
@@ -51,6 +58,8 @@ struct Frame {
                          ///< radiance)
     uint32_t index = 0; ///< frame number: the only clock and the only seed
     parts::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves it here
+    std::vector<Counter>* counters = nullptr; ///< where given, a technique that `counts` counts its work and leaves the numbers here;
+                                              ///< such frames are not timed
 };
 
 /// One algorithm for one scene and one light, with what it keeps between frames (a member; a new scene or light is a new object).
@@ -82,20 +91,23 @@ struct TechniqueInfo {
     std::string_view id; ///< the folder's name
     std::string_view title, family, cite; ///< cite: author and year, as in the page's references
     Output output = Output::visibility;
+    Output (*output_of)(std::span<const std::byte> params) = nullptr; ///< where its parameters choose; null: always `output`
     unsigned lights = all_lights; ///< kinds it claims; conformance tests hold it to that
     bool soft = false; ///< computes penumbrae of lights with an area; false: treats every light as its centre
     bool textured = false; ///< of a light with an image it writes the visibility in each channel, in the format of transmittance; false:
                            ///< takes the light as uniform
     bool partial = false; ///< shadows only some surfaces, or by some casters, as its page says; all else is lit as if nothing cast
     bool exact = false; ///< differs from truth only in a stated band at true edges
+    bool counts = false; ///< leaves Frame::counters
     bool temporal = false; ///< keeps state between frames: the lab warms it up and tests it from a reset
     ParamTable (*params)() = no_params;
     std::string (*unavailable)(const gpu::Device&) = nullptr; ///< "" or the reason, a sentence
     std::unique_ptr<Technique> (*create)(gpu::Device&) = nullptr;
 };
 
-/// Of the image that a technique writes for a light.
-VkFormat output_format(const TechniqueInfo&, const scene::Light&);
+/// Of the image that a technique with these parameters writes.
+Output output(const TechniqueInfo&, std::span<const std::byte> params);
+VkFormat output_format(const TechniqueInfo&, std::span<const std::byte> params, const scene::Light&);
 
 /// All techniques, sorted by id. Generated from the folders.
 std::span<const TechniqueInfo* const> techniques();

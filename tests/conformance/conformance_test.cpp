@@ -79,10 +79,8 @@ protected:
         return lab::render(device(), scene, stage, choice, {.lit = false}).images.front();
     }
     lab::Choice defaults() const { return {GetParam().info, shadow::ParamValues(GetParam().info->params())}; }
-    bool is_light_image() const
-    {
-        return GetParam().info->output == shadow::Output::visibility || GetParam().info->output == shadow::Output::transmittance;
-    }
+    shadow::Output output() const { return lab::output_of(defaults()); }
+    bool is_light_image() const { return output() == shadow::Output::visibility || output() == shadow::Output::transmittance; }
 
     size_t errors_before_ = 0;
 };
@@ -153,7 +151,7 @@ TEST_P(Conformance, values_are_finite_and_repeat_bit_for_bit)
 {
     const lab::Stage s = stage("contact", {160, 90});
     const base::Picture first = draw(s, defaults()), second = draw(s, defaults());
-    expect_sane(first, GetParam().info->output, "contact");
+    expect_sane(first, output(), "contact");
     EXPECT_EQ(first.values, second.values);
 }
 
@@ -168,7 +166,7 @@ TEST_P(Conformance, every_parameter_runs_at_both_ends)
             choice.params.set(p.name, end);
             const std::string what = p.name + " = " + choice.params.text(p);
             SCOPED_TRACE(what);
-            expect_sane(lab::render(device(), scene, s, choice, {.lit = false}).images.front(), GetParam().info->output, what);
+            expect_sane(lab::render(device(), scene, s, choice, {.lit = false}).images.front(), lab::output_of(choice), what);
         }
 }
 
@@ -176,7 +174,7 @@ TEST_P(Conformance, odd_sizes_work)
 {
     for (const base::Size size : {base::Size{1, 1}, base::Size{257, 129}}) {
         const lab::Stage s = stage("balls", size);
-        expect_sane(draw(s, defaults()), GetParam().info->output, std::to_string(size.width));
+        expect_sane(draw(s, defaults()), output(), std::to_string(size.width));
     }
 }
 
@@ -242,7 +240,8 @@ TEST_P(Promise, exact_methods_are_right_outside_the_band)
     const shadow::TechniqueInfo& info = *GetParam();
     const std::string reason = info.unavailable ? info.unavailable(device()) : "";
     if (!reason.empty()) GTEST_SKIP() << info.id << ": " << reason;
-    if (!info.exact || info.output != shadow::Output::visibility) GTEST_SKIP() << info.id << " is not an exact method for visibility";
+    if (!info.exact || shadow::output(info, shadow::ParamValues(info.params()).bytes()) != shadow::Output::visibility)
+        GTEST_SKIP() << info.id << " is not an exact method for visibility";
     for (const std::string& name : opaque_scenes()) {
         const lab::Stage s = lab::open_stage({name, {}, "", {"directional,elevation=40,azimuth=120,angle=0"}, {240, 180}});
         shadow::SceneGpu scene(device(), s.scene);

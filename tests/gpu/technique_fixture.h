@@ -65,7 +65,7 @@ protected:
         shadow::ParamValues params(info.params());
         for (const auto& [name, value] : values) params.set(name, value);
         shadow::SceneGpu scene(device(), s);
-        Image out = image("visibility", shadow::output_format(info, light), size);
+        Image out = image("visibility", shadow::output_format(info, params.bytes(), light), size);
         const std::unique_ptr<shadow::Technique> technique = info.create(device());
         PassList passes(device());
         const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
