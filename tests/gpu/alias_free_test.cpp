@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every pixel against a test of every triangle in double precision, where the technique's lists are put to the test: lights in odd
 // places, all samples on a line, triangles of no area, edges and corners right on samples.
-#include "alias_free_truth.h"
+#include "exact_suite.h"
 
 extern const gnomon::shadow::TechniqueInfo technique_alias_free;
 
@@ -9,75 +9,22 @@ namespace gnomon {
 namespace {
 
 using gpu::camera_above;
-using gpu::floor_scene;
 
 constexpr double one = 0, eight = 1, thirty_two = 2;
 
-class AliasFree : public gpu::TechniqueTest {
+class AliasFree : public ExactTest {
 protected:
+    static ExactSubject with(const Values& values) { return {technique_alias_free, "", values}; }
     static std::vector<float> draw(
         const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values)
     {
-        return TechniqueTest::draw(technique_alias_free, s, camera, size, light, values);
+        return ExactTest::draw(with(values), s, camera, size, light);
     }
-
-    /// The primitive of each pixel.
-    static std::vector<float> primitives(const scene::Scene& s, const scene::View& view)
-    {
-        shadow::SceneGpu scene(device(), s);
-        gpu::Image out = image("primitive", VK_FORMAT_R32_UINT, view.size);
-        gpu::PassList passes(device());
-        const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
-        passes.copy(g.primitive, passes.import(out));
-        device().submit(std::move(passes));
-        return device().read_back(out).values;
-    }
-
-    struct Count {
-        size_t wrong = 0, unknown = 0, dark = 0, lit = 0;
-    };
-    static Count compare(const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* text, const Values& values)
-    {
-        const scene::Light light = scene::parse_light(text, {}, s.bounds());
-        const HardTruth truth(s, light);
-        const scene::View view = scene::make_view(camera, size, s.bounds());
-        const std::vector<float> seen = primitives(s, view), got = draw(s, camera, size, text, values);
-        Count count;
-        for (size_t i = 0; i < got.size(); ++i) {
-            if (seen[i] >= 4294967040.0f) {
-                count.wrong += got[i] != 1.0f;
-                continue;
-            }
-            const size_t own = size_t(seen[i]);
-            const scene::Ray ray = scene::view_ray(view, vec2(float(i % size_t(size.width)) + 0.5f, float(i / size_t(size.width)) + 0.5f));
-            dvec3 n = glm::normalize(HardTruth::normal(truth.triangles()[own]));
-            const double facing = glm::dot(n, dvec3(ray.direction));
-            if (std::abs(facing) < 0.05) {
-                ++count.unknown;
-                continue;
-            }
-            if (facing > 0) n = -n;
-            const double along = glm::dot(n, truth.triangles()[own][0] - dvec3(ray.origin)) / glm::dot(n, dvec3(ray.direction));
-            const Verdict verdict = truth.at(dvec3(ray.origin) + along * dvec3(ray.direction), n, own);
-            count.unknown += verdict == Verdict::unknown;
-            count.dark += verdict == Verdict::dark;
-            count.lit += verdict == Verdict::lit;
-            count.wrong += (verdict == Verdict::dark && got[i] != 0.0f) || (verdict == Verdict::lit && got[i] != 1.0f);
-        }
-        return count;
-    }
-    /// No pixel wrong, and enough of them known.
     static void expect_right(const scene::Scene& s, const scene::Camera& camera, gpu::Size size, const char* light, const Values& values,
         size_t least_dark = 100, size_t least_lit = 100, double most_unknown = 0.04)
     {
-        const Count c = compare(s, camera, size, light, values);
-        EXPECT_EQ(c.wrong, 0u) << light << " of " << size.area();
-        EXPECT_LT(double(c.unknown), most_unknown * double(size.area())) << light;
-        EXPECT_GE(c.dark, least_dark) << light;
-        EXPECT_GE(c.lit, least_lit) << light;
+        ExactTest::expect_right(with(values), s, camera, size, light, least_dark, least_lit, most_unknown);
     }
-
-    inline static const scene::Camera oblique{.eye = {4, 4, 6}, .target = {0, 0.5f, 0}};
 };
 
 TEST_F(AliasFree, RandomTrianglesHaveNoWrongPixel)
@@ -257,6 +204,11 @@ TEST_F(AliasFree, AStraightEdgeCoversItsArea)
     EXPECT_LE(worst, 2.5 / 32);
     EXPECT_LT(std::abs(sum / double(count)), 2e-3);
 }
+
+const ExactSubject defaults{technique_alias_free, "defaults", {}, 60, 20}, few_cells{technique_alias_free, "few_cells", {{"grid", 16}}};
+INSTANTIATE_TEST_SUITE_P(alias_free, ExactSoups, testing::Values(defaults), exact_name);
+INSTANTIATE_TEST_SUITE_P(alias_free, ExactPlaces, testing::Values(defaults, few_cells), exact_name);
+INSTANTIATE_TEST_SUITE_P(alias_free, ExactBadInput, testing::Values(defaults, few_cells), exact_name);
 
 } // namespace
 } // namespace gnomon

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "technique_fixture.h"
+#include "scene/light.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
+#include <vector>
 
 namespace gnomon {
 
@@ -14,15 +15,16 @@ using dvec3 = glm::dvec3;
 using Triangle = std::array<dvec3, 3>;
 
 /// What stands before a point, in double precision and against every triangle. Where a triangle's edge or plane passes within `margin`
-/// metres of the ray, or of the point, single precision and the technique's own offsets may decide either way: unknown.
+/// metres of the ray, or of the point, single precision and the technique's own offsets may decide either way: unknown. Such is the
+/// margin of scenes some metres wide; `scale` is the size of others in their terms.
 enum class Verdict { dark, lit, unknown };
 
 class HardTruth {
 public:
-    static constexpr double margin = 4e-4;
-
-    HardTruth(const scene::Scene& s, const scene::Light& light)
+    HardTruth(const scene::Scene& s, const scene::Light& light, double scale = 1)
         : light_(light)
+        , margin_(4e-4 * scale)
+        , in_plane_(1e-9 * scale)
     {
         for (const scene::Instance& i : s.instances) {
             const scene::Mesh& m = s.meshes[size_t(i.mesh)];
@@ -70,57 +72,34 @@ public:
     }
 
 private:
-    static bool in_plane(const Triangle& own, const Triangle& other)
+    bool in_plane(const Triangle& own, const Triangle& other) const
     {
         const dvec3 n = normal(own);
         const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
-        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < 1e-9 * glm::length(n);
+        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < in_plane_ * glm::length(n);
     }
 
     Verdict behind(const Triangle& t, dvec3 p) const
     {
         const dvec3 n = normal(t);
         const double area = glm::length(n);
-        if (area == 0) return Verdict::lit; // no ray meets it
+        if (!(area > 0)) return Verdict::lit; // no ray meets it, nor one with a corner that is not a number
         const double light_height = glm::dot(n, to_light(t[0])) / area, height = glm::dot(n, p - t[0]) / area * (light_height < 0 ? -1 : 1);
-        if (height > margin) return Verdict::lit;
+        if (height > margin_) return Verdict::lit;
         double least = 1e30, most = -1e30;
         for (size_t k = 0; k < 3; ++k) {
             const dvec3 a = t[(k + 1) % 3], b = t[(k + 2) % 3], plane = glm::cross(to_light(a), b - a);
             const double length = glm::length(plane), distance = length > 0 ? glm::dot(plane, p - a) / length : 0;
             least = std::min(least, distance), most = std::max(most, distance);
         }
-        if (least < -margin && most > margin) return Verdict::lit;
-        const bool inside = least > margin || most < -margin;
-        return inside && height < -margin && std::abs(light_height) > margin ? Verdict::dark : Verdict::unknown;
+        if (least < -margin_ && most > margin_) return Verdict::lit;
+        const bool inside = least > margin_ || most < -margin_;
+        return inside && height < -margin_ && std::abs(light_height) > margin_ ? Verdict::dark : Verdict::unknown;
     }
 
     const scene::Light& light_;
+    double margin_, in_plane_; ///< metres
     std::vector<Triangle> triangles_;
 };
-
-/// A floor, and over it triangles of all sizes, each with corners of its own; some have no area.
-inline scene::Scene soup(uint32_t seed, int triangles)
-{
-    scene::Scene s = gpu::floor_scene(4);
-    std::mt19937 random(seed);
-    const auto uniform = [&](float low, float high) { return low + (high - low) * float(random() >> 8) * 0x1p-24f; };
-    scene::Mesh m;
-    for (int t = 0; t < triangles; ++t) {
-        const vec3 centre(uniform(-3, 3), uniform(0.2f, 3), uniform(-3, 3));
-        const float size = 0.05f + 1.5f * std::pow(uniform(0, 1), 4.0f);
-        for (int k = 0; k < 3; ++k) {
-            m.indices.push_back(uint32_t(m.positions.size()));
-            m.positions.push_back(centre + size * vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
-        }
-        if (t % 16 == 0)
-            m.positions.back() = t % 32 ? m.positions[m.positions.size() - 2]
-                                        : 0.5f * (m.positions[m.positions.size() - 2] + m.positions[m.positions.size() - 3]);
-    }
-    scene::complete(m);
-    s.instances.push_back({int(s.meshes.size()), mat4(1)});
-    s.meshes.push_back(m);
-    return s;
-}
 
 } // namespace gnomon
