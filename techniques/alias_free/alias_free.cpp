@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hard shadows tested at the view's own samples (Aila, Laine 2004; Johnson et al. 2005), in lists as Sintorn, Eisemann, Assarsson 2008
 // make them, and at several positions of a pixel (Pan et al. 2009).
-#include "techniques/alias_free/alias_free_blocks.h"
+#include "techniques/alias_free/alias_free.shared.h"
 
 #include "base/error.h"
 #include "shadow/light_constants.h"
+#include "shadow/parts/caster_blocks.h"
 #include "shadow/parts/fit.h"
 #include "shadow/technique.h"
 
@@ -201,7 +202,7 @@ private:
 
     void read_casters(SceneGpu& scene)
     {
-        const std::vector<CasterBlock> blocks = caster_blocks(scene);
+        const std::vector<CasterBlock> blocks = parts::caster_blocks(scene);
         block_count_ = uint32_t(blocks.size());
         blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
         if (!blocks.empty()) device_.upload(blocks_, std::as_bytes(std::span(blocks)));

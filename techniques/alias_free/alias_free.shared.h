@@ -32,14 +32,6 @@ struct Grid {
     GridLevel level[GRID_MAX_LEVELS];
 };
 
-/// Some triangles of one instance, for a group of a compute pass.
-struct CasterBlock {
-    uint slot; ///< of the instance
-    uint first, count; ///< triangles of its mesh
-    uint masked; ///< 0 or 1
-};
-#define CASTER_BLOCK 64
-
 /// A triangle that covers many cells of a level of a layer.
 struct WideCaster {
     uint slot, triangle, masked;

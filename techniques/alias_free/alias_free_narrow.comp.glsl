@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "src/shadow/parts/caster_blocks.shared.h"
 #include "techniques/alias_free/alias_free_bindings.glsl"
 
 layout(local_size_x = CASTER_BLOCK) in;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shadow/scene_gpu.h"
+#include "src/shadow/parts/caster_blocks.shared.h"
+
+#include <vector>
+
+namespace gnomon::shadow::parts {
+
+/// All opaque triangles of a scene and then all masked ones, in blocks of CASTER_BLOCK, for a compute pass with a group each.
+std::vector<shaders::CasterBlock> caster_blocks(const SceneGpu&);
+
+} // namespace gnomon::shadow::parts

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hard shadows by the volume behind each triangle, taken down a tree over the view's depths (Sintorn, Olsson, Assarsson 2011).
+#include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
+
+#include "shadow/light_constants.h"
+#include "shadow/parts/caster_blocks.h"
+#include "shadow/technique.h"
+#include "techniques/per_triangle_volumes/depth_tree.h"
+
+#include <algorithm>
+
+namespace gnomon::techniques::per_triangle_volumes {
+
+namespace {
+
+using namespace shadow;
+
+void describe(Params& p, Fields& fields)
+{
+    fields.choice("cull", p.cull, {"none", "front", "back"},
+        "Triangles of single-sided materials that are left out: those that face the light, or those that do not. Exact where their meshes "
+        "are closed.");
+    fields.choice("team", p.team, {"ballot", "shared"},
+        "How the invocations that walk the tree together exchange bits: by ballots of a subgroup, or through shared memory.");
+}
+
+/// Casters that are made into volumes at once: the memory that these take does not grow with the scene.
+constexpr uint32_t round_blocks = 2048;
+
+/// Homogeneous world positions relative to the eye, by normalised device coordinates.
+mat4 world_from_ndc(const scene::View& view)
+{
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(view.clip_from_world));
+    return mat4(glm::translate(glm::dmat4(1), -glm::dvec3(view.eye)) * inverse);
+}
+
+class PerTriangleVolumes final : public TechniqueWith<Params> {
+public:
+    explicit PerTriangleVolumes(gpu::Device& device)
+        : device_(device)
+    {
+    }
+
+private:
+    struct Buffers {
+        gpu::BufferId words, tiles, volumes, groups;
+    };
+
+    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    {
+        if (!blocks_) read_casters(frame.resources);
+        const Tree tree = make_tree(frame.view.size);
+        const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
+        const auto transient = [&](uint64_t bytes, const char* name, VkBufferUsageFlags usage = 0) {
+            return passes.transient(gpu::BufferDesc{bytes, usage, gpu::Memory::device, name});
+        };
+        const Buffers b{transient(4 * uint64_t(tree.nodes), "words"), transient(8 * uint64_t(tree.nodes), "tiles"),
+            transient(4 + uint64_t(room) * sizeof(Volume), "volumes"),
+            transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)};
+        build_tree(passes, frame, tree, b);
+        VolumeConstants c = volume_constants(frame, tree, params);
+        for (c.first_block = 0; c.first_block < block_count_; c.first_block += round_blocks) {
+            c.blocks = std::min(round_blocks, block_count_ - c.first_block);
+            cast(passes, frame, c, params, b);
+        }
+        passes.fullscreen({.name = "resolve",
+            .program
+            = &device_.raster_program("shaders/fullscreen.vert", "techniques/per_triangle_volumes/per_triangle_volumes_resolve.frag"),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {b.words, gpu::Use::load}},
+            .constants = tree,
+            .colors = {{frame.output}}});
+    }
+
+    const gpu::Program& program(const char* name) const
+    {
+        return device_.compute_program(std::string("techniques/per_triangle_volumes/per_triangle_volumes_") + name + ".comp");
+    }
+
+    static VolumeConstants volume_constants(const Frame& frame, const Tree& tree, const Params& params)
+    {
+        VolumeConstants c{};
+        c.light = light_constants(frame.light, frame.resources.bounds());
+        c.tree = tree;
+        c.world_from_ndc = world_from_ndc(frame.view);
+        c.eye = frame.view.eye;
+        c.cull = uint32_t(params.cull);
+        const View view = view_constants(frame.view, frame.index);
+        c.eye_point = frame.view.orthographic ? vec4(view.forward, 0) : vec4(0, 0, 0, 1);
+        const mat4& m = c.world_from_ndc;
+        c.ray = glm::length(vec3(m[0])) + glm::length(vec3(m[1])) + glm::length(vec3(m[3]));
+        return c;
+    }
+
+    void build_tree(gpu::PassList& passes, const Frame& frame, const Tree& tree, const Buffers& b) const
+    {
+        passes.compute({.name = "base",
+            .program = &program("base"),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {b.words, gpu::Use::store},
+                {b.tiles, gpu::Use::store}},
+            .constants
+            = TreeConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), tree},
+            .threads = {tree.first[2]}});
+        struct Reduce {
+            Tree tree;
+            uint height;
+        };
+        for (uint32_t height = 2; height <= tree.height; ++height)
+            passes.compute({.name = "reduce",
+                .program = &program("reduce"),
+                .bindings = {{b.words, gpu::Use::update}, {b.tiles, gpu::Use::update}},
+                .constants = Reduce{tree, height},
+                .threads = {(height == tree.height ? tree.nodes : tree.first[height + 1]) - tree.first[height]}});
+    }
+
+    /// The triangles of a round.
+    void cast(gpu::PassList& passes, const Frame& frame, const VolumeConstants& c, const Params& params, const Buffers& b)
+    {
+        SceneGpu& scene = frame.resources;
+        passes.fill(b.volumes, 0, "no volumes");
+        passes.compute({.name = "setup",
+            .program = &program("setup"),
+            .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
+                {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
+                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load},
+                {b.volumes, gpu::Use::update}},
+            .constants = c,
+            .threads = {c.blocks * CASTER_BLOCK}});
+        const bool shared = params.team == 1;
+        passes.compute({.name = "groups",
+            .program = &program("groups"),
+            .bindings = {{b.volumes, gpu::Use::load}, {b.groups, gpu::Use::store}},
+            .constants = uint32_t(shared)});
+        passes.compute({.name = "traverse",
+            .program = &program(shared ? "traverse_shared" : "traverse"),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
+                {b.tiles, gpu::Use::load}, {b.volumes, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
+                {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
+                {passes.import(scene.attributes()), gpu::Use::load}},
+            .constants = c.tree,
+            .textures = &scene.textures(),
+            .indirect = b.groups});
+    }
+
+    void read_casters(SceneGpu& scene)
+    {
+        const std::vector<CasterBlock> blocks = parts::caster_blocks(scene);
+        block_count_ = uint32_t(blocks.size());
+        blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
+        if (!blocks.empty()) device_.upload(blocks_, std::as_bytes(std::span(blocks)));
+    }
+
+    uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes : 0; }
+
+    gpu::Buffer blocks_; ///< of the scene's triangles, made on first use
+    uint32_t block_count_ = 0;
+    gpu::Device& device_;
+};
+
+} // namespace
+
+} // namespace gnomon::techniques::per_triangle_volumes
+
+extern const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes;
+const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes = {
+    .id = "per_triangle_volumes",
+    .title = "Per-triangle shadow volumes",
+    .family = "hard shadows",
+    .cite = "Sintorn, Olsson, Assarsson 2011",
+    .output = gnomon::shadow::Output::visibility,
+    .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
+    .exact = true,
+    .params = [] { return gnomon::shadow::param_table(gnomon::techniques::per_triangle_volumes::describe); },
+    .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
+        return std::make_unique<gnomon::techniques::per_triangle_volumes::PerTriangleVolumes>(device);
+    },
+};

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_PER_TRIANGLE_VOLUMES_SHARED_H
+#define GNOMON_PER_TRIANGLE_VOLUMES_SHARED_H
+#include "shaders/frame.shared.h"
+#include "techniques/per_triangle_volumes/depth_tree.shared.h"
+
+TECHNIQUE_BEGIN(per_triangle_volumes)
+
+struct Params {
+    int cull DEFAULT(0); ///< CULL_*
+    int team DEFAULT(0); ///< index into ballot, shared
+};
+
+/// What lies behind a triangle as seen from the light, as planes (a, b, c, d) over a sample's (x, y, z, 1) in normalised device
+/// coordinates: inside where all four values are not negative.
+struct Volume {
+    vec4 side_0, side_1, side_2; ///< through the light and the edge opposite to each corner
+    vec4 cap; ///< the triangle's own plane
+    vec3 line_0, line_1; ///< over (x, y, 1): lines in the picture beyond which the volume does not reach
+    uint primitive;
+    uint slot; ///< of the instance, times 16, and VOLUME_*
+};
+#define VOLUME_OPEN 1u ///< << i: side i excludes its own plane, which belongs to the triangle on the other side
+#define VOLUME_MASKED 8u
+
+#define CULL_NONE 0
+#define CULL_FRONT 1
+#define CULL_BACK 2
+
+struct TreeConstants {
+    View view;
+    Light light;
+    Tree tree;
+};
+
+struct VolumeConstants {
+    Light light;
+    Tree tree;
+    mat4 world_from_ndc; ///< homogeneous, relative to `eye`
+    vec3 eye;
+    uint cull; ///< CULL_*
+    vec4 eye_point; ///< homogeneous, relative to `eye`: itself, or where an orthographic view looks
+    float ray; ///< longest of the rays through the picture, in metres at unit depth
+    uint first_block, blocks; ///< casters of this round
+    uint room; ///< for volumes
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "shaders/light.glsl"
+#include "shaders/scene.glsl"
+#include "src/shadow/parts/caster_blocks.shared.h"
+#include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
+
+// An invocation makes the volume of a triangle, where that reaches into the tree at all.
+layout(local_size_x = CASTER_BLOCK) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Words { uint words[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Tiles { vec2 tiles[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Indices { uint indices[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Materials { Material materials[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Blocks { CasterBlock blocks[]; };
+layout(set = 0, binding = 7, scalar) buffer Volumes
+{
+    uint count;
+    Volume volumes[];
+};
+layout(set = 1, binding = 0, scalar) uniform Constants { VolumeConstants c; };
+
+#include "techniques/per_triangle_volumes/volume_setup.glsl"
+
+vec3 corner_of(Instance i, uint triangle, uint k)
+{
+    const vec3 p = positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]];
+    precise const vec3 world = vec3(exact_dot(i.row_x.xyz, p) + i.row_x.w, exact_dot(i.row_y.xyz, p) + i.row_y.w, exact_dot(i.row_z.xyz, p) + i.row_z.w);
+    return world;
+}
+
+// Whether the triangle shows the light the side that is left out. Only of single-sided materials, which promise to be closed.
+bool is_culled(Instance i, bool front)
+{
+    return c.cull != CULL_NONE && (materials[i.material].flags & MATERIAL_DOUBLE_SIDED) == 0 && front == (c.cull == CULL_FRONT);
+}
+
+void append(Volume v)
+{
+    const Box root = node_box(c.tree, c.tree.height, uvec2(0), tiles[c.tree.nodes - 1]);
+    const bool reaches = finite(v.side_0) && finite(v.side_1) && finite(v.side_2) && finite(v.cap) && words[c.tree.nodes - 1] != 0xffffffffu
+        && classify(v, side_limits(v.slot), root) != REJECT;
+    if (!reaches) return;
+    volumes[atomicAdd(count, 1)] = v;
+}
+
+void main()
+{
+    const uint block_index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (block_index >= c.blocks) return;
+    const CasterBlock block = blocks[c.first_block + block_index];
+    const uint triangle = block.first + gl_LocalInvocationIndex;
+    if (gl_LocalInvocationIndex >= block.count) return;
+    const Instance i = instances[block.slot];
+    const Sorted s = sorted(corner_of(i, triangle, 0), corner_of(i, triangle, 1), corner_of(i, triangle, 2));
+    vec3 n;
+    float doubt;
+    const float height = light_height(s, n, doubt);
+    // Without area, or with the light exactly in its plane, a triangle meets no ray.
+    if (height == 0.0 || isnan(height)) return;
+    const bool even = s.from == uvec3(0, 1, 2) || s.from == uvec3(1, 2, 0) || s.from == uvec3(2, 0, 1);
+    if (is_culled(i, (height > 0.0) == even)) return;
+    // Where rounding may have turned the sign, both are tried: the one that is wrong holds nothing but what rounding left between planes.
+    const bool doubtful = abs(height) <= doubt;
+    for (float turn = -1.0; turn < 2.0; turn += 2.0) {
+        if (!doubtful && turn * height < 0.0) continue;
+        Volume v = make_volume(s, n, turn);
+        v.primitive = i.first_primitive + triangle;
+        v.slot |= block.slot << 4 | block.masked * VOLUME_MASKED;
+        append(v);
+    }
+}

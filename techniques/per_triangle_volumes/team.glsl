@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Invocations that walk the tree together, each with every so many of the 32 children of a node. A team is a subgroup of any size, or, with
+// TEAM_IN_SHARED_MEMORY, a group of 32 that exchanges bits through shared memory and barriers, for devices without ballots.
+#ifndef GNOMON_TEAM_GLSL
+#define GNOMON_TEAM_GLSL
+
+layout(local_size_x = 32) in;
+
+#ifdef TEAM_IN_SHARED_MEMORY
+
+shared uint team_word;
+
+const uint team_lanes = 32;
+uint team_lane() { return gl_LocalInvocationIndex; }
+uint team_index() { return gl_WorkGroupID.x; }
+uint team_count() { return gl_NumWorkGroups.x; }
+bool team_elect() { return gl_LocalInvocationIndex == 0; }
+
+uint team_ballot(bool vote)
+{
+    barrier();
+    if (gl_LocalInvocationIndex == 0) team_word = 0;
+    barrier();
+    if (vote) atomicOr(team_word, 1u << gl_LocalInvocationIndex);
+    barrier();
+    return team_word;
+}
+
+// The same value for all, whatever others write meanwhile to where it came from.
+uint team_first(uint value)
+{
+    barrier();
+    if (gl_LocalInvocationIndex == 0) team_word = value;
+    barrier();
+    return team_word;
+}
+
+#else
+
+#extension GL_KHR_shader_subgroup_ballot : require
+
+// 0: all of the subgroup. Fewer only show that any number will do.
+layout(constant_id = 0) const uint LANES = 0;
+#define team_lanes (LANES == 0 ? gl_SubgroupSize : LANES)
+uint team_lane() { return gl_SubgroupInvocationID; }
+uint team_index() { return gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID; }
+uint team_count() { return gl_NumWorkGroups.x * gl_NumSubgroups; }
+bool team_elect() { return subgroupElect(); }
+uint team_ballot(bool vote) { return subgroupBallot(vote && gl_SubgroupInvocationID < min(team_lanes, 32)).x; }
+uint team_first(uint value) { return subgroupBroadcastFirst(value); }
+
+#endif
+
+#endif

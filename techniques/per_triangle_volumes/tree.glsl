@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef GNOMON_TREE_GLSL
+#define GNOMON_TREE_GLSL
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/per_triangle_volumes/depth_tree.shared.h"
+
+// Words hold a bit for each child of a node: set where nothing below is left to darken, because all of it is dark, faces away from the
+// light, is background, or does not exist.
+uint node_index(Tree tree, uint height, uvec2 node) { return tree.first[height] + node.y * tree.width[height] + node.x; }
+
+// Children of a node lie in rows of 2^this.
+uint row_shift(uint height) { return 2 + (height & 1); }
+
+uvec2 child_of(uint height, uvec2 node, uint child)
+{
+    const uint row = row_shift(height);
+    return (node << uvec2(row, 5 - row)) + uvec2(child & ((1u << row) - 1u), child >> row);
+}
+
+uint child_bit(uint height, uvec2 child)
+{
+    const uint row = row_shift(height);
+    return (child.x & ((1u << row) - 1u)) + ((child.y & ((1u << (5 - row)) - 1u)) << row);
+}
+
+// Of a sample's centre. The sum is exact and the product is rounded once, so that x does not decrease from one sample to the next: a tile's
+// first and last sample bound those between bit for bit.
+vec2 sample_ndc(Tree tree, uvec2 at)
+{
+    precise const vec2 x = vec2(ivec2(2 * at + 1) - ivec2(tree.samples)) * tree.step;
+    return x;
+}
+
+// Of the samples below a node that may still be darkened; the depths come from `tiles`.
+struct Box {
+    vec2 x, y, z; // least and greatest
+};
+
+Box node_box(Tree tree, uint height, uvec2 node, vec2 depths)
+{
+    const uvec2 shift = tree_shift(height);
+    const vec2 least = sample_ndc(tree, node << shift), most = sample_ndc(tree, min((node + 1) << shift, tree.samples) - 1);
+    return Box(vec2(least.x, most.x), vec2(least.y, most.y), depths);
+}
+
+#endif
