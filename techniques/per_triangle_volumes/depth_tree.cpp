@@ -3,18 +3,40 @@
 
 #include "base/error.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gnomon::techniques::per_triangle_volumes {
 
-shaders::Tree make_tree(base::Size samples)
+namespace {
+
+/// Twice what lavapipe's interpolation takes of a depth (4e-6 of itself is the most that was seen), and of coordinates far from the origin.
+constexpr float rounding = 5e-6f;
+
+/// By which depth grows when a point moves towards the eye by `rounding` of its distance and of its coordinates, as a polynomial in it: of
+/// 1 / w = depth / near in a perspective view, where dw = -rounding (w + offset), and of a distance in an orthographic one.
+vec3 nearer(const scene::View& view)
+{
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(view.clip_from_world));
+    const float offset = std::max({std::abs(view.eye.x), std::abs(view.eye.y), std::abs(view.eye.z)});
+    if (!view.orthographic) return rounding * vec3(0, 1, offset / view.near);
+    const float extent = float(glm::length(glm::dvec3(inverse[2])));
+    return {rounding * (1 + offset / extent), 0, 0};
+}
+
+} // namespace
+
+shaders::Tree make_tree(const scene::View& view, uvec2 samples_a_pixel)
 {
     shaders::Tree tree{};
-    tree.samples = uvec2(samples.width, samples.height);
+    tree.samples = uvec2(view.size.width, view.size.height) * samples_a_pixel;
+    tree.nearer = nearer(view);
     tree.step = 1.0f / vec2(tree.samples);
     const auto nodes = [&](uint32_t height) { return ((tree.samples - 1u) >> shaders::tree_shift(height)) + 1u; };
     for (uint32_t height = 1;; ++height) {
         if (height > TREE_MAX_HEIGHT)
             base::fail("per_triangle_volumes takes pictures of up to 262144 x 131072 samples, not {} x {}; choose a smaller --size",
-                samples.width, samples.height);
+                tree.samples.x, tree.samples.y);
         tree.height = height;
         tree.first[height] = tree.nodes;
         tree.width[height] = nodes(height).x;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/picture.h"
+#include "scene/view.h"
 #include "techniques/per_triangle_volumes/depth_tree.shared.h"
 
 namespace gnomon::techniques::per_triangle_volumes {
 
-/// Over a picture of samples. Throws Error where it is larger than any tree.
-shaders::Tree make_tree(base::Size samples);
+/// Over a view with so many samples a pixel across and down. Throws Error where these are more than any tree takes.
+shaders::Tree make_tree(const scene::View&, uvec2 samples_a_pixel = uvec2(1));
 
 } // namespace gnomon::techniques::per_triangle_volumes

@@ -13,6 +13,7 @@ SHARED_BEGIN(shaders)
 struct Tree {
     uvec2 samples; ///< width and height; several samples a pixel are a larger picture
     vec2 step; ///< half of the distance from a sample to the next, in normalised device coordinates
+    vec3 nearer; ///< tree.glsl's receiver_depth, by powers of the depth
     uint height; ///< of the root
     uint nodes; ///< of all heights from 1 on
     uint first[TREE_MAX_HEIGHT + 1]; ///< of a height's nodes, which are stored by rows

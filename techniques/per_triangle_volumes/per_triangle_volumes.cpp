@@ -49,7 +49,7 @@ private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
         if (!blocks_) read_casters(frame.resources);
-        const Tree tree = make_tree(frame.view.size);
+        const Tree tree = make_tree(frame.view);
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
         const auto transient = [&](uint64_t bytes, const char* name, VkBufferUsageFlags usage = 0) {
             return passes.transient(gpu::BufferDesc{bytes, usage, gpu::Memory::device, name});

@@ -20,7 +20,7 @@ void main()
     if (index >= c.tree.first[2]) return;
     const uvec2 node = uvec2(index % c.tree.width[1], index / c.tree.width[1]);
     uint done = 0;
-    vec2 depths = vec2(1.0, 0.0);
+    vec2 depths = vec2(NOWHERE, 0.0);
     for (uint i = 0; i < 32; ++i) {
         const uvec2 at = child_of(1, node, i);
         bool lit = all(lessThan(at, c.tree.samples));
@@ -28,7 +28,7 @@ void main()
             Receiver r;
             float visibility;
             lit = find_hard_receiver(c.view, c.light, depth_image, normal_image, vec2(at) + 0.5, r, visibility);
-            const float z = texelFetch(depth_image, ivec2(at), 0).r;
+            const float z = receiver_depth(c.tree, texelFetch(depth_image, ivec2(at), 0).r);
             if (lit) depths = vec2(min(depths.x, z), max(depths.y, z));
         }
         done |= uint(!lit) << i;

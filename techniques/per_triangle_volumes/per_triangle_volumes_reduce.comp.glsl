@@ -18,7 +18,7 @@ void main()
     const uvec2 node = uvec2(offset % tree.width[height], offset / tree.width[height]);
     const uint rows = (tree.first[height] - tree.first[height - 1]) / tree.width[height - 1];
     uint done = 0;
-    vec2 depths = vec2(1.0, 0.0);
+    vec2 depths = vec2(NOWHERE, 0.0);
     for (uint i = 0; i < 32; ++i) {
         const uvec2 child = child_of(height, node, i);
         bool open = all(lessThan(child, uvec2(tree.width[height - 1], rows)));

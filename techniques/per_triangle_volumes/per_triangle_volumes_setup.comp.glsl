@@ -64,11 +64,12 @@ void main()
     if (height == 0.0 || isnan(height)) return;
     const bool even = s.from == uvec3(0, 1, 2) || s.from == uvec3(1, 2, 0) || s.from == uvec3(2, 0, 1);
     if (is_culled(i, (height > 0.0) == even)) return;
-    // Where rounding may have turned the sign, both are tried: the one that is wrong holds nothing but what rounding left between planes.
+    // Where rounding may have turned the sign both are tried for the sides: the one that is wrong holds nothing but what rounding left
+    // between planes.
     const bool doubtful = abs(height) <= doubt;
     for (float turn = -1.0; turn < 2.0; turn += 2.0) {
         if (!doubtful && turn * height < 0.0) continue;
-        Volume v = make_volume(s, n, turn);
+        Volume v = make_volume(s, n, height, turn);
         v.primitive = i.first_primitive + triangle;
         v.slot |= block.slot << 4 | block.masked * VOLUME_MASKED;
         append(v);

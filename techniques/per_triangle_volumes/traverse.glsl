@@ -10,7 +10,7 @@
 
 bool hits_sample(Tree tree, Volume v, vec3 limits, uvec2 at)
 {
-    const vec3 p = vec3(sample_ndc(tree, at), texelFetch(depth_image, ivec2(at), 0).r);
+    const vec3 p = vec3(sample_ndc(tree, at), receiver_depth(tree, texelFetch(depth_image, ivec2(at), 0).r));
     vec3 e;
     return is_inside(v, limits, p, e) && hits(v, at, e);
 }

@@ -4,6 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/per_triangle_volumes/depth_tree.shared.h"
 
+const float NOWHERE = 1e30; // beyond all depths
+
 // Words hold a bit for each child of a node: set where nothing below is left to darken, because all of it is dark, faces away from the
 // light, is background, or does not exist.
 uint node_index(Tree tree, uint height, uvec2 node) { return tree.first[height] + node.y * tree.width[height] + node.x; }
@@ -29,6 +31,15 @@ vec2 sample_ndc(Tree tree, uvec2 at)
 {
     precise const vec2 x = vec2(ivec2(2 * at + 1) - ivec2(tree.samples)) * tree.step;
     return x;
+}
+
+// A sample's depth is off by a few roundings, and it must not lie behind its own surface. It is moved towards the eye, off the side that is
+// seen; every plane of every triangle then sees the same point, so that what holds for all points behind a closed surface holds for it. (A
+// bias of the triangles' own planes let light in through those that the light sees edge-on.)
+float receiver_depth(Tree tree, float depth)
+{
+    precise const float z = depth + ((depth * tree.nearer.z + tree.nearer.y) * depth + tree.nearer.x);
+    return z;
 }
 
 // Of the samples below a node that may still be darkened; the depths come from `tiles`.

@@ -6,10 +6,7 @@
 #define GNOMON_VOLUME_SETUP_GLSL
 #include "techniques/per_triangle_volumes/volume.glsl"
 
-// A share of each term's size by which a sample has to lie behind a triangle: a few roundings of its depth, which lavapipe interpolates with
-// an error of 4e-6 of itself. It is no offset of the scene's scale: 20 to 40 micrometres at ten metres.
-const float CAP_BIAS = 4e-6;
-// The same for lines, which only spare tests and do not share bits with the sides.
+// Lines only spare tests and do not share bits with the sides.
 const float LINE_SLACK = 1e-6;
 
 bool before(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
@@ -100,16 +97,15 @@ float light_height(Sorted s, out vec3 n, out float doubt)
     return exact_dot(n, to_light);
 }
 
-// `turn`: 1 or -1, the sign of light_height.
-Volume make_volume(Sorted s, vec3 n, float turn)
+// `height`: light_height. `turn`: 1 or -1, its sign, as far as it is known.
+Volume make_volume(Sorted s, vec3 n, float height, float turn)
 {
     Volume v;
     const vec4 opposite_a = turn * edge_plane(s.b, s.d), opposite_b = -turn * edge_plane(s.a, s.d), opposite_d = turn * edge_plane(s.a, s.b);
     v.side_0 = pick(s.from, 0, opposite_a, opposite_b, opposite_d);
     v.side_1 = pick(s.from, 1, opposite_a, opposite_b, opposite_d);
     v.side_2 = pick(s.from, 2, opposite_a, opposite_b, opposite_d);
-    const vec4 cap = -turn * ndc_plane(n, s.a), size = CAP_BIAS * abs(cap);
-    v.cap = vec4(cap.xy, cap.z - size.z, cap.w - (size.x + size.y + size.w));
+    v.cap = -sign(height) * ndc_plane(n, s.a);
     // The planes that were negated leave themselves to the neighbour.
     const uvec3 open = turn > 0.0 ? uvec3(0, 1, 0) : uvec3(1, 0, 1);
     v.slot = (open.x << s.from.x | open.y << s.from.y | open.z << s.from.z) * VOLUME_OPEN;
