@@ -27,6 +27,12 @@ struct Volume {
 #define CULL_FRONT 1
 #define CULL_BACK 2
 
+/// Of one frame.
+struct Counts {
+    uint triangles, triangles_culled; ///< looked at; of them those that reach no sample
+    uint tile_tests, sample_tests;
+};
+
 struct TreeConstants {
     View view;
     Light light;
