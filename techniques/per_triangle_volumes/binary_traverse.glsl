@@ -19,10 +19,12 @@ layout(set = 0, binding = 5, scalar) readonly buffer Instances { Instance instan
 layout(set = 0, binding = 6, scalar) readonly buffer Indices { uint indices[]; };
 layout(set = 0, binding = 7, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = 8, scalar) readonly buffer Attributes { VertexAttributes attributes[]; };
+layout(set = 0, binding = 9, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { Tree tree; };
 layout(set = 2, binding = 0) uniform sampler2D textures[];
 
 #include "shaders/alpha.glsl"
+#include "techniques/per_triangle_volumes/counting.glsl"
 
 bool takes_tiles(Volume v) { return (v.slot & VOLUME_MASKED) == 0; }
 
@@ -33,6 +35,14 @@ bool hits(Volume v, uvec2 at, vec3 e)
     if ((v.slot & VOLUME_MASKED) == 0) return true;
     const uint slot = v.slot >> 4;
     return mask_keeps(slot, v.primitive - instances[slot].first_primitive, e.yz / (e.x + e.y + e.z));
+}
+
+void count_tests(uint height, uint tests)
+{
+    if (height == 0)
+        COUNT(counts.sample_tests, tests);
+    else
+        COUNT(counts.tile_tests, tests);
 }
 
 void settle(uint word, uint children) { atomicOr(words[word], children); }

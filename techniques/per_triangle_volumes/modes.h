@@ -25,7 +25,7 @@ CasterRanges caster_ranges(const shadow::SceneGpu&);
 
 /// What one frame's passes share.
 struct TreeBuffers {
-    gpu::BufferId words, tiles, volumes, groups;
+    gpu::BufferId words, tiles, volumes, groups, counts;
     std::array<gpu::BufferId, 3> sums; ///< of the modes that add up: u32 for each node's child
 };
 /// The sums, all 0, or none. Throws Error where they are more than the device can bind.

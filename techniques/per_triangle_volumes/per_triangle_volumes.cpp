@@ -59,7 +59,9 @@ private:
         };
         Buffers b{transient(4 * uint64_t(tree.nodes), "words"), transient(8 * uint64_t(tree.nodes), "tiles"),
             transient(4 + uint64_t(room) * sizeof(Volume), "volumes"),
-            transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT), {}};
+            transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
+            transient(sizeof(Counts), "counts"), {}};
+        if (frame.counters) count(passes, *frame.counters, b);
         build_tree(passes, frame, tree, b);
         VolumeConstants c = volume_constants(frame, tree, params);
         const auto cast_all = [&](uint32_t first, uint32_t end, bool clear) {
@@ -87,9 +89,18 @@ private:
             .colors = {{frame.output}}});
     }
 
-    const gpu::Program& program(const char* name) const
+    const gpu::Program& program(const char* name, bool counting = false) const
     {
-        return device_.compute_program(std::string("techniques/per_triangle_volumes/per_triangle_volumes_") + name + ".comp");
+        const gpu::SpecConstant constants[] = {{1, 1}};
+        return device_.compute_program(
+            std::string("techniques/per_triangle_volumes/per_triangle_volumes_") + name + ".comp", std::span(constants, counting ? 1 : 0));
+    }
+
+    static void count(gpu::PassList& passes, std::vector<Counter>& counters, const Buffers& b)
+    {
+        passes.fill(b.counts, 0, "no counts");
+        constexpr const char* names[] = {"triangles", "triangles_culled", "tile_tests", "sample_tests"};
+        for (uint32_t i = 0; i < std::size(names); ++i) counters.push_back({names[i], b.counts, 4 * i});
     }
 
     static VolumeConstants volume_constants(const Frame& frame, const Tree& tree, const Params& params)
@@ -134,11 +145,11 @@ private:
         SceneGpu& scene = frame.resources;
         passes.fill(b.volumes, 0, "no volumes");
         passes.compute({.name = "setup",
-            .program = &program("setup"),
+            .program = &program("setup", frame.counters),
             .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
-                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load},
-                {b.volumes, gpu::Use::update}},
+                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load}, {b.volumes, gpu::Use::update},
+                {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
             .constants = c,
             .threads = {c.blocks * CASTER_BLOCK}});
         const bool shared = params.team == 1 && !clear;
@@ -151,11 +162,11 @@ private:
             return;
         }
         passes.compute({.name = "traverse",
-            .program = &program(shared ? "traverse_shared" : "traverse"),
+            .program = &program(shared ? "traverse_shared" : "traverse", frame.counters),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
                 {b.tiles, gpu::Use::load}, {b.volumes, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
-                {passes.import(scene.attributes()), gpu::Use::load}},
+                {passes.import(scene.attributes()), gpu::Use::load}, {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
             .constants = c.tree,
             .textures = &scene.textures(),
             .indirect = b.groups});
@@ -191,6 +202,7 @@ const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes = {
     .output_of = gnomon::techniques::per_triangle_volumes::output_of,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
+    .counts = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::per_triangle_volumes::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::per_triangle_volumes::PerTriangleVolumes>(device);

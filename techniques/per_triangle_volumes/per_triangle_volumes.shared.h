@@ -39,6 +39,12 @@ struct Volume {
 #define LEVEL_FOOTPRINT 0
 #define LEVEL_FINEST 1
 
+/// Of one frame.
+struct Counts {
+    uint triangles, triangles_culled; ///< looked at; of them those that reach no sample
+    uint tile_tests, sample_tests;
+};
+
 struct TreeConstants {
     View view;
     Light light;

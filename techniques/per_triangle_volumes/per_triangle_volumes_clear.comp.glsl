@@ -10,7 +10,7 @@
 
 // Semitransparent casters. With one share for each triangle a tile that is wholly inside is done by one addition; where it differs by
 // sample, all samples below are visited.
-layout(constant_id = 1) const uint MODE = MODE_RGB;
+layout(constant_id = 2) const uint MODE = MODE_RGB;
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D primitive_image;
@@ -28,11 +28,13 @@ layout(set = 0, binding = 8, scalar) readonly buffer Attributes { VertexAttribut
 layout(set = 0, binding = 9, scalar) buffer Red { uint red[]; }; // or grey
 layout(set = 0, binding = 10, scalar) buffer Green { uint green[]; };
 layout(set = 0, binding = 11, scalar) buffer Blue { uint blue[]; };
+layout(set = 0, binding = 12, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { ClearConstants c; };
 layout(set = 2, binding = 0) uniform sampler2D textures[];
 
 uvec3 share; // of the triangle at hand, where it has one
 
+#include "techniques/per_triangle_volumes/counting.glsl"
 #include "techniques/per_triangle_volumes/volume.glsl"
 #include "techniques/per_triangle_volumes/surface_at.glsl"
 
@@ -81,6 +83,15 @@ bool hits(Volume v, uvec2 at, vec3 e)
     const uint row = row_shift(1);
     add(node_index(c.tree, 1, at >> uvec2(row, 5 - row)), child_bit(1, at), uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b)));
     return false;
+}
+
+void count_tests(uint height, uint tests)
+{
+    if (height == 0) {
+        COUNT(counts.sample_tests, tests);
+    } else {
+        COUNT(counts.tile_tests, tests);
+    }
 }
 
 // What lets nothing through is as opaque as any caster.

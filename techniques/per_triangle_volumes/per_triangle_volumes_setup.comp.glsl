@@ -22,8 +22,10 @@ layout(set = 0, binding = 7, scalar) buffer Volumes
     uint count;
     Volume volumes[];
 };
+layout(set = 0, binding = 8, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeConstants c; };
 
+#include "techniques/per_triangle_volumes/counting.glsl"
 #include "techniques/per_triangle_volumes/volume_setup.glsl"
 
 vec3 corner_of(Instance i, uint triangle, uint k)
@@ -39,13 +41,39 @@ bool is_culled(Instance i, bool front)
     return c.cull != CULL_NONE && (materials[i.material].flags & MATERIAL_DOUBLE_SIDED) == 0 && front == (c.cull == CULL_FRONT);
 }
 
-void append(Volume v)
+bool append(Volume v)
 {
     const Box root = node_box(c.tree, c.tree.height, uvec2(0), tiles[c.tree.nodes - 1]);
     const bool reaches = finite(v.side_0) && finite(v.side_1) && finite(v.side_2) && finite(v.cap) && words[c.tree.nodes - 1] != 0xffffffffu
         && classify(v, side_limits(v.slot), root) != REJECT;
-    if (!reaches) return;
-    volumes[atomicAdd(count, 1)] = v;
+    if (reaches) volumes[atomicAdd(count, 1)] = v;
+    return reaches;
+}
+
+// Whether any of it is left.
+bool append_triangle(CasterBlock block, uint triangle)
+{
+    const Instance i = instances[block.slot];
+    const Sorted s = sorted(corner_of(i, triangle, 0), corner_of(i, triangle, 1), corner_of(i, triangle, 2));
+    vec3 n;
+    float doubt;
+    const float height = light_height(s, n, doubt);
+    // Without area, or with the light exactly in its plane, a triangle meets no ray.
+    if (height == 0.0 || isnan(height)) return false;
+    const bool even = s.from == uvec3(0, 1, 2) || s.from == uvec3(1, 2, 0) || s.from == uvec3(2, 0, 1);
+    if (is_culled(i, (height > 0.0) == even)) return false;
+    // Where rounding may have turned the sign both are tried for the sides: the one that is wrong holds nothing but what rounding left
+    // between planes.
+    const bool doubtful = abs(height) <= doubt;
+    bool casts = false;
+    for (float turn = -1.0; turn < 2.0; turn += 2.0) {
+        if (!doubtful && turn * height < 0.0) continue;
+        Volume v = make_volume(s, n, height, turn);
+        v.primitive = i.first_primitive + triangle;
+        v.slot |= block.slot << 4 | block.masked * VOLUME_MASKED;
+        casts = append(v) || casts;
+    }
+    return casts;
 }
 
 void main()
@@ -55,23 +83,7 @@ void main()
     const CasterBlock block = blocks[c.first_block + block_index];
     const uint triangle = block.first + gl_LocalInvocationIndex;
     if (gl_LocalInvocationIndex >= block.count) return;
-    const Instance i = instances[block.slot];
-    const Sorted s = sorted(corner_of(i, triangle, 0), corner_of(i, triangle, 1), corner_of(i, triangle, 2));
-    vec3 n;
-    float doubt;
-    const float height = light_height(s, n, doubt);
-    // Without area, or with the light exactly in its plane, a triangle meets no ray.
-    if (height == 0.0 || isnan(height)) return;
-    const bool even = s.from == uvec3(0, 1, 2) || s.from == uvec3(1, 2, 0) || s.from == uvec3(2, 0, 1);
-    if (is_culled(i, (height > 0.0) == even)) return;
-    // Where rounding may have turned the sign both are tried for the sides: the one that is wrong holds nothing but what rounding left
-    // between planes.
-    const bool doubtful = abs(height) <= doubt;
-    for (float turn = -1.0; turn < 2.0; turn += 2.0) {
-        if (!doubtful && turn * height < 0.0) continue;
-        Volume v = make_volume(s, n, height, turn);
-        v.primitive = i.first_primitive + triangle;
-        v.slot |= block.slot << 4 | block.masked * VOLUME_MASKED;
-        append(v);
-    }
+    const bool casts = append_triangle(block, triangle);
+    COUNT(counts.triangles, 1);
+    COUNT(counts.triangles_culled, casts ? 0 : 1);
 }

@@ -2,6 +2,7 @@
 // A team takes one volume down the tree, depth first. What becomes of tiles and samples in it is up to the includer:
 //   bool takes_tiles(Volume)                  whether a tile that is wholly inside is settled at once, or its samples one by one
 //   bool hits(Volume, uvec2 sample, vec3 e)   whether a sample inside is hit; e as of is_inside
+//   void count_tests(uint height, uint tests) of children of that height, called as settle is
 //   void settle(uint word, uint children)     called by one invocation of the team: children of a node, tiles or samples
 // Include after `words`, `tiles`, `depth_image` and team.glsl.
 #ifndef GNOMON_TRAVERSE_GLSL
@@ -26,6 +27,8 @@ uint visit(Tree tree, Volume v, vec3 limits, uint height, uvec2 node)
 {
     const uint word = node_index(tree, height, node);
     const uint open = team_first(~words[word]); // as it was some time ago, which only costs tests
+    if (open == 0) return 0;
+    if (team_elect()) count_tests(height - 1, bitCount(open));
     uint settled = 0, refined = 0;
     for (uint first = 0; first < 32; first += team_lanes) {
         const uint child = first + team_lane();
