@@ -17,7 +17,8 @@ void describe_modes(Params& p, Fields& fields)
         "What semitransparent triangles do: nothing; take away one share of grey each; of each colour; what their texture has at every "
         "sample; or all of it at random samples.");
     fields.choice("texture_level", p.texture_level, {"footprint", "finest"},
-        "Level of detail of textures: that of a pixel's width at the receiver, as the light throws it on the caster, or always the finest.");
+        "Level of detail of textures: that of a pixel's width at the receiver, as the light throws it on the caster, or always the "
+        "finest.");
     fields.choice("samples", p.samples, {"1", "4", "16"}, "Samples of each pixel, every one with a depth of its own; the mean is taken.");
 }
 
@@ -36,8 +37,7 @@ CasterRanges caster_ranges(const SceneGpu& scene)
     for (const SceneGpu::Drawable& d : drawables)
         glass[d.slot] = scene.scene().materials[size_t(scene.scene().meshes[d.mesh].material)].transmission > 0.0f;
     out.blocks = parts::caster_blocks(scene);
-    const auto end
-        = std::stable_partition(out.blocks.begin(), out.blocks.end(), [&](const CasterBlock& b) { return glass[b.slot] == 0; });
+    const auto end = std::stable_partition(out.blocks.begin(), out.blocks.end(), [&](const CasterBlock& b) { return glass[b.slot] == 0; });
     out.solid = uint32_t(end - out.blocks.begin());
     out.opaque = uint32_t(out.blocks.size());
     for (const SceneGpu::Drawable& d : drawables)
@@ -48,10 +48,7 @@ CasterRanges caster_ranges(const SceneGpu& scene)
 
 namespace {
 
-uint32_t channels(const Params& p)
-{
-    return p.mode == MODE_ALPHA ? 1 : p.mode == MODE_RGB || p.mode == MODE_TEXTURED ? 3 : 0;
-}
+uint32_t channels(const Params& p) { return p.mode == MODE_ALPHA ? 1 : p.mode == MODE_RGB || p.mode == MODE_TEXTURED ? 3 : 0; }
 
 /// Those without sums are given `other`, which they do not look at.
 gpu::BufferId sums_or(const TreeBuffers& b, uint32_t channel, gpu::BufferId other) { return b.sums[channel] ? b.sums[channel] : other; }

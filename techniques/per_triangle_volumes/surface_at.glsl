@@ -20,20 +20,24 @@ Corners corners_of(Volume v)
 
 float longest(vec2 a, vec2 b) { return sqrt(max(dot(a, a), dot(b, b))); }
 
+// What is the same at all corners keeps its bits, as a sum of three weighted ones would not.
+vec2 between(vec2 a_0, vec2 a_1, vec2 a_2, vec3 at) { return a_0 + at.y * (a_1 - a_0) + at.z * (a_2 - a_0); }
+vec4 between(vec4 a_0, vec4 a_1, vec4 a_2, vec3 at) { return a_0 + at.y * (a_1 - a_0) + at.z * (a_2 - a_0); }
+
 // At barycentric coordinates `at`, which change by `right` and `down` over the width that a texture is to be averaged over.
 vec3 transmittance_of(Corners k, vec3 at, vec3 right, vec3 down)
 {
-    const mat3x2 uv = mat3x2(k.uv_0, k.uv_1, k.uv_2);
     const Material m = materials[k.material];
-    vec4 base = m.base_color * (at.x * k.color_0 + at.y * k.color_1 + at.z * k.color_2);
+    vec4 base = m.base_color * between(k.color_0, k.color_1, k.color_2, at);
     const TextureUse use = m.base_color_texture;
     if (use.index >= 0) {
-        const vec2 size = vec2(textureSize(textures[nonuniformEXT(use.index)], 0)), here = uv * at;
-        const vec2 origin = transform_uv(use, vec2(0.0));
-        const float texels = longest(size * (transform_uv(use, uv * right) - origin), size * (transform_uv(use, uv * down) - origin));
+        const vec2 size = vec2(textureSize(textures[nonuniformEXT(use.index)], 0)), uv = transform_uv(use, between(k.uv_0, k.uv_1, k.uv_2, at));
+        const vec2 to_right = transform_uv(use, between(k.uv_0, k.uv_1, k.uv_2, at + right)) - uv;
+        const vec2 to_down = transform_uv(use, between(k.uv_0, k.uv_1, k.uv_2, at + down)) - uv;
+        const float texels = longest(size * to_right, size * to_down);
         // A cutoff is meant for the finest level.
         const bool finest = c.texture_level == LEVEL_FINEST || (m.flags & MATERIAL_MASK) != 0;
-        base *= textureLod(textures[nonuniformEXT(use.index)], transform_uv(use, here), finest ? 0.0 : log2(max(texels, 1.0)));
+        base *= textureLod(textures[nonuniformEXT(use.index)], uv, finest ? 0.0 : log2(max(texels, 1.0)));
     }
     return transmittance(m, base);
 }
