@@ -133,7 +133,7 @@ private:
             .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
                 {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load}, {b.volumes, gpu::Use::update},
-                {b.counts, gpu::Use::update}},
+                {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
             .constants = c,
             .threads = {c.blocks * CASTER_BLOCK}});
         const bool shared = params.team == 1;
@@ -146,7 +146,7 @@ private:
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
                 {b.tiles, gpu::Use::load}, {b.volumes, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
-                {passes.import(scene.attributes()), gpu::Use::load}, {b.counts, gpu::Use::update}},
+                {passes.import(scene.attributes()), gpu::Use::load}, {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
             .constants = c.tree,
             .textures = &scene.textures(),
             .indirect = b.groups});
