@@ -5,7 +5,9 @@
 
 layout(constant_id = 1) const uint COUNTING = 0;
 
-#define COUNT(name, number) \
-    if (COUNTING != 0) atomicAdd(name, number)
+#define COUNT(name, number)                          \
+    do {                                             \
+        if (COUNTING != 0) atomicAdd(name, number);  \
+    } while (false)
 
 #endif

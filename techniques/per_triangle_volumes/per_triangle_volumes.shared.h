@@ -19,7 +19,7 @@ struct Params {
 struct Volume {
     vec4 side_0, side_1, side_2; ///< through the light and the edge opposite to each corner
     vec4 cap; ///< the triangle's own plane
-    vec3 line_0, line_1; ///< over (x, y, 1): lines in the picture beyond which the volume does not reach
+    vec3 line_0, line_1, line_2, line_3; ///< over (x, y, 1): negative beyond lines in the picture that the volume does not cross
     uint primitive;
     uint slot; ///< of the instance, times 16, and VOLUME_*
 };

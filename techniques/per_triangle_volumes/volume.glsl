@@ -42,7 +42,7 @@ vec3 side_limits(uint slot) { return mix(vec3(0.0), vec3(LEAST), notEqual(slot &
 
 int classify(Volume v, vec3 limits, Box b)
 {
-    if (most(v.line_0, b) < 0.0 || most(v.line_1, b) < 0.0) return REJECT;
+    if (most(v.line_0, b) < 0.0 || most(v.line_1, b) < 0.0 || most(v.line_2, b) < 0.0 || most(v.line_3, b) < 0.0) return REJECT;
     if (most(v.side_0, b) < limits.x || most(v.side_1, b) < limits.y || most(v.side_2, b) < limits.z || most(v.cap, b) < 0.0) return REJECT;
     const bool inside
         = least(v.side_0, b) >= limits.x && least(v.side_1, b) >= limits.y && least(v.side_2, b) >= limits.z && least(v.cap, b) >= 0.0;

@@ -6,7 +6,7 @@
 #define GNOMON_VOLUME_SETUP_GLSL
 #include "techniques/per_triangle_volumes/volume.glsl"
 
-// Lines only spare tests and do not share bits with the sides.
+// Of the size of a line's terms. Lines only spare tests and do not share bits with the sides.
 const float LINE_SLACK = 1e-6;
 
 bool before(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
@@ -47,24 +47,65 @@ vec4 edge_plane(vec3 a, vec3 b)
     return ndc_plane(exact_cross(from_point_to_light(a), along), a);
 }
 
-// The picture's line through the light and a corner, turned so that the whole volume lies on its positive side, or vec3(0) where it does
-// not lie on one. It is the plane through the eye, the light and the corner; `eye` is where c.eye_point stands.
-vec3 bounding_line(vec3 corner, vec3 other_0, vec3 other_1)
+// A homogeneous point, relative to the eye, as a line through it and the eye needs it: what counts is the plane through both and the eye.
+struct Seen {
+    vec3 p;
+    float w;
+    float size; // of its terms
+};
+
+Seen seen_corner(vec3 corner) { return Seen(corner - c.eye, 1.0, length(corner - c.eye)); }
+
+Seen seen_light()
 {
-    // Homogeneous and relative to the eye: of an orthographic view that is a direction.
-    const bool directional = c.light.kind == LIGHT_DIRECTIONAL;
-    const vec3 light = directional ? -c.light.direction : c.light.position - c.eye, v = corner - c.eye;
-    const bool orthographic = c.eye_point.w == 0.0;
-    const vec3 a = orthographic ? c.eye_point.xyz : light, b = orthographic ? (directional ? light : light - v) : v;
-    const vec3 n = cross(a, b), away = orthographic ? v : vec3(0.0);
-    const vec2 e = vec2(dot(n, other_0 - c.eye - away), dot(n, other_1 - c.eye - away));
-    const float size = length(a) * (length(b) + (orthographic && !directional ? length(light) + length(v) : 0.0));
-    const vec2 doubt = LINE_SLACK * size * vec2(length(other_0 - c.eye) + length(away), length(other_1 - c.eye) + length(away));
-    const float side = all(greaterThan(e, doubt)) ? 1.0 : all(lessThan(e, -doubt)) ? -1.0 : 0.0;
+    if (c.light.kind == LIGHT_DIRECTIONAL) return Seen(-c.light.direction, 0.0, 1.0);
+    return seen_corner(c.light.position);
+}
+
+// A line in the picture through two points, as a plane with normal n and offset k in the world. `doubt`: what rounding may make of it.
+struct Line {
+    vec3 n;
+    float k, doubt;
+};
+
+Line line_through(Seen a, Seen b)
+{
+    // The plane holds the eye: the point 0 or, of an orthographic view, the direction in which it looks.
+    if (c.eye_point.w != 0.0) return Line(cross(a.p, b.p), 0.0, LINE_SLACK * a.size * b.size);
+    const vec3 along = a.w * b.p - b.w * a.p, n = cross(c.eye_point.xyz, along), through = a.w != 0.0 ? a.p : b.p;
+    const float size = abs(a.w) * b.size + abs(b.w) * a.size;
+    return Line(n, -dot(n, through), LINE_SLACK * size * (1.0 + (a.w != 0.0 ? a.size : b.size)));
+}
+
+// 1 or -1: the side of the line on which a point certainly lies, or 0.
+float side_of(Line l, Seen s)
+{
+    const float e = dot(l.n, s.p) + l.k * s.w, doubt = l.doubt * (s.size + s.w);
+    return abs(e) > doubt ? sign(e) : 0.0;
+}
+
+// Where all of the volume lies on one side of the line: positive there, by a margin for rounding. Else vec3(0.0).
+vec3 bound(Line l, float side)
+{
     const mat4 m = c.world_from_ndc;
-    const float k = -dot(n, away);
-    const vec3 line = side * vec3(dot(n, m[0].xyz) + k * m[0].w, dot(n, m[1].xyz) + k * m[1].w, dot(n, m[3].xyz) + k * m[3].w);
-    return line + vec3(0.0, 0.0, LINE_SLACK * size * (c.ray + (orthographic ? length(v) : 0.0)));
+    const vec3 line = vec3(dot(l.n, m[0].xyz) + l.k * m[0].w, dot(l.n, m[1].xyz) + l.k * m[1].w, dot(l.n, m[3].xyz) + l.k * m[3].w);
+    return side == 0.0 ? vec3(0.0) : side * line + vec3(0.0, 0.0, l.doubt * (c.ray + 1.0));
+}
+
+// Points of the volume are Y + t (Y - L) for Y in the triangle and t >= 0: on the same side of a line as all Y where L lies on it (through a
+// corner and the light) or opposite (the edges towards the light).
+vec3 line_of_corner(Seen light, Seen corner, Seen other_0, Seen other_1)
+{
+    const Line l = line_through(light, corner);
+    const float side = side_of(l, other_0);
+    return bound(l, side == side_of(l, other_1) ? side : 0.0);
+}
+
+vec3 line_of_edge(Seen light, Seen from, Seen to, Seen opposite)
+{
+    const Line l = line_through(from, to);
+    const float side = side_of(l, opposite);
+    return bound(l, side == -side_of(l, light) ? side : 0.0);
 }
 
 bool finite(vec4 v) { return !any(isnan(v)) && !any(isinf(v)); }
@@ -97,6 +138,18 @@ float light_height(Sorted s, out vec3 n, out float doubt)
     return exact_dot(n, to_light);
 }
 
+// At most two lines of either kind bound the volume; none do where the light shines from within its picture.
+void find_lines(Sorted s, inout Volume v)
+{
+    const Seen light = seen_light(), a = seen_corner(s.a), b = seen_corner(s.b), d = seen_corner(s.d);
+    const vec3 of_a = line_of_corner(light, a, b, d), of_b = line_of_corner(light, b, a, d), of_d = line_of_corner(light, d, a, b);
+    v.line_0 = of_a == vec3(0.0) ? of_b : of_a;
+    v.line_1 = of_d == vec3(0.0) ? of_b : of_d;
+    const vec3 of_ab = line_of_edge(light, a, b, d), of_bd = line_of_edge(light, b, d, a), of_ad = line_of_edge(light, a, d, b);
+    v.line_2 = of_ab == vec3(0.0) ? of_bd : of_ab;
+    v.line_3 = of_ad == vec3(0.0) ? of_bd : of_ad;
+}
+
 // `height`: light_height. `turn`: 1 or -1, its sign, as far as it is known.
 Volume make_volume(Sorted s, vec3 n, float height, float turn)
 {
@@ -109,10 +162,7 @@ Volume make_volume(Sorted s, vec3 n, float height, float turn)
     // The planes that were negated leave themselves to the neighbour.
     const uvec3 open = turn > 0.0 ? uvec3(0, 1, 0) : uvec3(1, 0, 1);
     v.slot = (open.x << s.from.x | open.y << s.from.y | open.z << s.from.z) * VOLUME_OPEN;
-    // Two of the three lines bound the volume, unless the light shines from within its picture.
-    const vec3 line_a = bounding_line(s.a, s.b, s.d), line_b = bounding_line(s.b, s.a, s.d), line_d = bounding_line(s.d, s.a, s.b);
-    v.line_0 = any(notEqual(line_a.xy, vec2(0.0))) ? line_a : line_b;
-    v.line_1 = any(notEqual(line_d.xy, vec2(0.0))) ? line_d : line_b;
+    find_lines(s, v);
     v.primitive = 0;
     return v;
 }
