@@ -26,6 +26,7 @@ layout(set = 2, binding = 0) uniform sampler2D textures[];
 #include "shaders/alpha.glsl"
 #include "techniques/per_triangle_volumes/counting.glsl"
 
+const bool INSIDE_IS_KNOWN = false;
 bool takes_tiles(Volume v) { return (v.slot & VOLUME_MASKED) == 0; }
 
 // A triangle does not darken itself.

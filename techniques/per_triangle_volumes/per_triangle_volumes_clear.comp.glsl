@@ -71,7 +71,8 @@ bool passes_at_random(float transmittance, uint primitive, uvec2 at)
     return transmittance >= 1.0 || number < uint(transmittance * 4294967296.0);
 }
 
-bool takes_tiles(Volume v) { return MODE == MODE_ALPHA || MODE == MODE_RGB; }
+const bool INSIDE_IS_KNOWN = MODE == MODE_TEXTURED || MODE == MODE_STOCHASTIC;
+bool takes_tiles(Volume v) { return !INSIDE_IS_KNOWN; }
 
 bool hits(Volume v, uvec2 at, vec3 e)
 {
@@ -97,7 +98,7 @@ void count_tests(uint height, uint tests)
 // What lets nothing through is as opaque as any caster.
 void settle(uint word, uint children)
 {
-    if (MODE == MODE_TEXTURED || MODE == MODE_STOCHASTIC || share == uvec3(SUM_LIMIT)) {
+    if (INSIDE_IS_KNOWN || share == uvec3(SUM_LIMIT)) {
         atomicOr(words[word], children);
         return;
     }

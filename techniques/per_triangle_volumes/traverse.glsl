@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A team takes one volume down the tree, depth first. What becomes of tiles and samples in it is up to the includer:
+//   const bool INSIDE_IS_KNOWN                whether what is below a tile that lies inside is spared the test; costs registers
 //   bool takes_tiles(Volume)                  whether a tile that is wholly inside is settled at once, or its samples one by one
 //   bool hits(Volume, uvec2 sample, vec3 e)   whether a sample inside is hit; e as of is_inside
 //   void count_tests(uint height, uint tests) of children of that height, called as settle is
@@ -9,25 +10,28 @@
 #define GNOMON_TRAVERSE_GLSL
 #include "techniques/per_triangle_volumes/volume.glsl"
 
-bool hits_sample(Tree tree, Volume v, vec3 limits, uvec2 at)
+// `inside`: it is known already to lie in the volume, as all below a tile do that does.
+bool hits_sample(Tree tree, Volume v, vec3 limits, uvec2 at, bool inside)
 {
     const vec3 p = vec3(sample_ndc(tree, at), receiver_depth(tree, texelFetch(depth_image, ivec2(at), 0).r));
     vec3 e;
-    return is_inside(v, limits, p, e) && hits(v, at, e);
+    return (is_inside(v, limits, p, e) || inside) && hits(v, at, e);
 }
 
 int classify_tile(Tree tree, Volume v, vec3 limits, uint height, uvec2 tile)
 {
-    const int verdict = classify(v, limits, node_box(tree, height, tile, tiles[node_index(tree, height, tile)]));
-    return verdict == ACCEPT && !takes_tiles(v) ? REFINE : verdict;
+    return classify(v, limits, node_box(tree, height, tile, tiles[node_index(tree, height, tile)]));
 }
 
-// Tests the children of a node that are not settled yet, and returns those to descend into.
-uint visit(Tree tree, Volume v, vec3 limits, uint height, uvec2 node)
+// Tests the children of a node that are not settled yet, and returns those to descend into; `certain` are those of them that lie inside,
+// whose samples still differ.
+uint visit(Tree tree, Volume v, vec3 limits, uint height, uvec2 node, bool inside, out uint certain)
 {
+    certain = 0;
     const uint word = node_index(tree, height, node);
     const uint open = team_first(~words[word]); // as it was some time ago, which only costs tests
     if (open == 0) return 0;
+    if (INSIDE_IS_KNOWN && inside && height > 1) return open;
     if (team_elect()) count_tests(height - 1, bitCount(open));
     uint settled = 0, refined = 0;
     for (uint first = 0; first < 32; first += team_lanes) {
@@ -39,10 +43,14 @@ uint visit(Tree tree, Volume v, vec3 limits, uint height, uvec2 node)
             if (height > 1)
                 verdict = classify_tile(tree, v, limits, height - 1, at);
             else
-                verdict = hits_sample(tree, v, limits, at) ? ACCEPT : REJECT;
+                verdict = hits_sample(tree, v, limits, at, inside) ? ACCEPT : REJECT;
         }
         settled |= team_ballot(verdict == ACCEPT) << first;
         refined |= team_ballot(verdict == REFINE) << first;
+    }
+    if (height > 1 && !takes_tiles(v)) {
+        if (INSIDE_IS_KNOWN) certain = settled;
+        return refined | settled;
     }
     if (settled != 0 && team_elect()) settle(word, settled);
     return refined;
@@ -53,7 +61,10 @@ void traverse(Tree tree, Volume v, uint height, uvec2 node)
     const vec3 limits = side_limits(v.slot);
     const uint top = height;
     uint pending[TREE_MAX_HEIGHT + 1]; // by height
-    pending[height] = visit(tree, v, limits, height, node);
+    // Children that lie inside come before those to be tested, so that there is one node at a time that has any.
+    uint certain, certain_height = 0, found;
+    pending[height] = visit(tree, v, limits, height, node, false, found);
+    if (INSIDE_IS_KNOWN && found != 0) certain = found, certain_height = height;
     while (height <= top) {
         if (pending[height] == 0) {
             ++height;
@@ -61,11 +72,15 @@ void traverse(Tree tree, Volume v, uint height, uvec2 node)
             node >>= uvec2(row, 5 - row);
             continue;
         }
-        const uint child = findLSB(pending[height]);
-        pending[height] &= pending[height] - 1;
+        if (height == certain_height && certain == 0) certain_height = 0;
+        const bool inside = INSIDE_IS_KNOWN && height <= certain_height;
+        const uint child = findLSB(inside && height == certain_height ? certain : pending[height]);
+        if (inside && height == certain_height) certain &= certain - 1;
+        pending[height] &= ~(1u << child);
         node = child_of(height, node, child);
         --height;
-        pending[height] = visit(tree, v, limits, height, node);
+        pending[height] = visit(tree, v, limits, height, node, inside, found);
+        if (INSIDE_IS_KNOWN && found != 0) certain = found, certain_height = height;
     }
 }
 
