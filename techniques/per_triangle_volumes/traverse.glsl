@@ -9,63 +9,66 @@
 #define GNOMON_TRAVERSE_GLSL
 #include "techniques/per_triangle_volumes/volume.glsl"
 
-bool hits_sample(Tree tree, Volume v, vec3 limits, uvec2 at)
+bool hits_sample(Volume v, vec3 limits, uvec2 at)
 {
-    const vec3 p = vec3(sample_ndc(tree, at), receiver_depth(tree, texelFetch(depth_image, ivec2(at), 0).r));
+    const vec3 p = vec3(sample_ndc(at), receiver_depth(texelFetch(depth_image, ivec2(at), 0).r));
     vec3 e;
     return is_inside(v, limits, p, e) && hits(v, at, e);
 }
 
-int classify_tile(Tree tree, Volume v, vec3 limits, uint height, uvec2 tile)
+int classify_tile(Volume v, vec3 limits, uint height, uvec2 tile)
 {
-    const int verdict = classify(v, limits, node_box(tree, height, tile, tiles[node_index(tree, height, tile)]));
+    const int verdict = classify(v, limits, node_box(height, tile, tiles[node_index(height, tile)]));
     return verdict == ACCEPT && !takes_tiles(v) ? REFINE : verdict;
 }
 
 // Tests the children of a node that are not settled yet, and returns those to descend into.
-uint visit(Tree tree, Volume v, vec3 limits, uint height, uvec2 node)
+uint visit(Volume v, vec3 limits, uint height, uvec2 node)
 {
-    const uint word = node_index(tree, height, node);
+    const uint word = node_index(height, node);
     const uint open = team_first(~words[word]); // as it was some time ago, which only costs tests
     if (open == 0) return 0;
     if (team_elect()) count_tests(height - 1, bitCount(open));
-    uint settled = 0, refined = 0;
-    for (uint first = 0; first < 32; first += team_lanes) {
-        const uint child = first + team_lane();
-        const bool mine = child < 32 && (open >> child & 1u) != 0;
-        int verdict = REJECT;
-        if (mine) {
-            const uvec2 at = child_of(height, node, child);
-            if (height > 1)
-                verdict = classify_tile(tree, v, limits, height - 1, at);
-            else
-                verdict = hits_sample(tree, v, limits, at) ? ACCEPT : REJECT;
-        }
-        settled |= team_ballot(verdict == ACCEPT) << first;
-        refined |= team_ballot(verdict == REFINE) << first;
+    uint settled = 0, refined = 0; // of this lane's children
+    for (uint child = team_lane(); child < 32; child += team_lanes) {
+        if ((open >> child & 1u) == 0) continue;
+        const uvec2 at = child_of(height, node, child);
+        int verdict;
+        if (height > 1)
+            verdict = classify_tile(v, limits, height - 1, at);
+        else
+            verdict = hits_sample(v, limits, at) ? ACCEPT : REJECT;
+        settled |= uint(verdict == ACCEPT) << child;
+        refined |= uint(verdict == REFINE) << child;
     }
+    settled = team_or(settled);
     if (settled != 0 && team_elect()) settle(word, settled);
-    return refined;
+    return height > 1 ? team_or(refined) : 0;
 }
 
-void traverse(Tree tree, Volume v, uint height, uvec2 node)
+void push(uint height, uint children)
+{
+    if (team_elect()) team_pending[team_in_group()][height] = children;
+    TEAM_BARRIER;
+}
+
+void traverse(Volume v, uint height, uvec2 node)
 {
     const vec3 limits = side_limits(v.slot);
     const uint top = height;
-    uint pending[TREE_MAX_HEIGHT + 1]; // by height
-    pending[height] = visit(tree, v, limits, height, node);
+    push(height, visit(v, limits, height, node));
     while (height <= top) {
-        if (pending[height] == 0) {
+        const uint left = team_first(team_pending[team_in_group()][height]);
+        if (left == 0) {
             ++height;
             const uint row = row_shift(height);
             node >>= uvec2(row, 5 - row);
             continue;
         }
-        const uint child = findLSB(pending[height]);
-        pending[height] &= pending[height] - 1;
-        node = child_of(height, node, child);
+        push(height, left & (left - 1));
+        node = child_of(height, node, findLSB(left));
         --height;
-        pending[height] = visit(tree, v, limits, height, node);
+        push(height, visit(v, limits, height, node));
     }
 }
 
