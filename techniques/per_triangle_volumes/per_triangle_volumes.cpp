@@ -3,9 +3,9 @@
 #include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
 
 #include "shadow/light_constants.h"
-#include "shadow/parts/caster_blocks.h"
 #include "shadow/technique.h"
 #include "techniques/per_triangle_volumes/depth_tree.h"
+#include "techniques/per_triangle_volumes/modes.h"
 
 #include <algorithm>
 
@@ -22,6 +22,7 @@ void describe(Params& p, Fields& fields)
         "are closed.");
     fields.choice("team", p.team, {"ballot", "shared"},
         "How the invocations that walk the tree together exchange bits: by ballots of a subgroup, or through shared memory.");
+    describe_modes(p, fields);
 }
 
 /// Casters that are made into volumes at once: the memory that these take does not grow with the scene.
@@ -42,28 +43,43 @@ public:
     }
 
 private:
-    struct Buffers {
-        gpu::BufferId words, tiles, volumes, groups, counts;
-    };
+    using Buffers = TreeBuffers;
 
-    void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
+    void record_with(gpu::PassList& passes, const Frame& drawn, const Params& params) override
     {
+        const scene::View view = finer_view(drawn.view, params);
+        const Frame frame{drawn.scene, view, drawn.light, drawn.resources,
+            params.samples == 0 ? drawn.gbuffer : draw_gbuffer(passes, drawn.resources, view, {.material = false}), drawn.output, drawn.index,
+            nullptr, drawn.counters};
         if (!blocks_) read_casters(frame.resources);
         const Tree tree = make_tree(frame.view);
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
         const auto transient = [&](uint64_t bytes, const char* name, VkBufferUsageFlags usage = 0) {
             return passes.transient(gpu::BufferDesc{bytes, usage, gpu::Memory::device, name});
         };
-        const Buffers b{transient(4 * uint64_t(tree.nodes), "words"), transient(8 * uint64_t(tree.nodes), "tiles"),
+        Buffers b{transient(4 * uint64_t(tree.nodes), "words"), transient(8 * uint64_t(tree.nodes), "tiles"),
             transient(4 + uint64_t(room) * sizeof(Volume), "volumes"),
             transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
-            transient(sizeof(Counts), "counts")};
+            transient(sizeof(Counts), "counts"), {}};
         if (frame.counters) count(passes, *frame.counters, b);
         build_tree(passes, frame, tree, b);
         VolumeConstants c = volume_constants(frame, tree, params);
-        for (c.first_block = 0; c.first_block < block_count_; c.first_block += round_blocks) {
-            c.blocks = std::min(round_blocks, block_count_ - c.first_block);
-            cast(passes, frame, c, params, b);
+        const auto cast_all = [&](uint32_t first, uint32_t end, bool clear) {
+            for (c.first_block = first; c.first_block < end; c.first_block += round_blocks) {
+                c.blocks = std::min(round_blocks, end - c.first_block);
+                cast(passes, frame, c, params, b, clear);
+            }
+        };
+        if (params.mode == MODE_BINARY) {
+            cast_all(0, opaque_end_, false);
+        } else {
+            cast_all(0, solid_end_, false);
+            if (solid_end_ < block_count_) make_sums(passes, tree, params, b);
+            cast_all(solid_end_, block_count_, true);
+        }
+        if (params.mode != MODE_BINARY || params.samples != 0) {
+            resolve_samples(passes, frame, tree, params, b);
+            return;
         }
         passes.fullscreen({.name = "resolve",
             .program
@@ -124,7 +140,7 @@ private:
     }
 
     /// The triangles of a round.
-    void cast(gpu::PassList& passes, const Frame& frame, const VolumeConstants& c, const Params& params, const Buffers& b)
+    void cast(gpu::PassList& passes, const Frame& frame, const VolumeConstants& c, const Params& params, const Buffers& b, bool clear)
     {
         SceneGpu& scene = frame.resources;
         passes.fill(b.volumes, 0, "no volumes");
@@ -136,11 +152,15 @@ private:
                 {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
             .constants = c,
             .threads = {c.blocks * CASTER_BLOCK}});
-        const bool shared = params.team == 1;
+        const bool shared = params.team == 1 && !clear;
         passes.compute({.name = "groups",
             .program = &program("groups"),
             .bindings = {{b.volumes, gpu::Use::load}, {b.groups, gpu::Use::store}},
             .constants = uint32_t(shared)});
+        if (clear) {
+            traverse_clear(passes, frame, c.tree, params, b);
+            return;
+        }
         passes.compute({.name = "traverse",
             .program = &program(shared ? "traverse_shared" : "traverse", frame.counters),
             .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
@@ -154,7 +174,8 @@ private:
 
     void read_casters(SceneGpu& scene)
     {
-        const std::vector<CasterBlock> blocks = parts::caster_blocks(scene);
+        const auto [blocks, solid, opaque] = caster_ranges(scene);
+        solid_end_ = solid, opaque_end_ = opaque;
         block_count_ = uint32_t(blocks.size());
         blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
         if (!blocks.empty()) device_.upload(blocks_, std::as_bytes(std::span(blocks)));
@@ -163,7 +184,7 @@ private:
     uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes : 0; }
 
     gpu::Buffer blocks_; ///< of the scene's triangles, made on first use
-    uint32_t block_count_ = 0;
+    uint32_t block_count_ = 0, solid_end_ = 0, opaque_end_ = 0; ///< CasterRanges
     gpu::Device& device_;
 };
 
@@ -178,6 +199,7 @@ const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes = {
     .family = "hard shadows",
     .cite = "Sintorn, Olsson, Assarsson 2011",
     .output = gnomon::shadow::Output::visibility,
+    .output_of = gnomon::techniques::per_triangle_volumes::output_of,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
     .counts = true,

@@ -9,6 +9,9 @@ TECHNIQUE_BEGIN(per_triangle_volumes)
 struct Params {
     int cull DEFAULT(0); ///< CULL_*
     int team DEFAULT(0); ///< index into ballot, shared
+    int mode DEFAULT(0); ///< MODE_*
+    int texture_level DEFAULT(0); ///< LEVEL_*
+    int samples DEFAULT(0); ///< of a pixel, the root's logarithm
 };
 
 /// What lies behind a triangle as seen from the light, as planes (a, b, c, d) over a sample's (x, y, z, 1) in normalised device
@@ -26,6 +29,15 @@ struct Volume {
 #define CULL_NONE 0
 #define CULL_FRONT 1
 #define CULL_BACK 2
+
+#define MODE_BINARY 0
+#define MODE_ALPHA 1
+#define MODE_RGB 2
+#define MODE_TEXTURED 3
+#define MODE_STOCHASTIC 4
+
+#define LEVEL_FOOTPRINT 0
+#define LEVEL_FINEST 1
 
 /// Of one frame.
 struct Counts {
@@ -49,6 +61,13 @@ struct VolumeConstants {
     float ray; ///< longest of the rays through the picture, in metres at unit depth
     uint first_block, blocks; ///< casters of this round
     uint room; ///< for volumes
+};
+
+struct ClearConstants {
+    Tree tree;
+    uint frame; ///< the seed of MODE_STOCHASTIC
+    uint texture_level; ///< LEVEL_*
+    uint samples_log2; ///< of a pixel
 };
 
 SHARED_END

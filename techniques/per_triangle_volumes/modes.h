@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shadow/technique.h"
+#include "src/shadow/parts/caster_blocks.shared.h"
+#include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+// What semitransparent casters do, and how many samples a pixel has.
+namespace gnomon::techniques::per_triangle_volumes {
+
+void describe_modes(Params&, shadow::Fields&);
+shadow::Output output_of(std::span<const std::byte> params);
+
+/// All triangles of a scene in blocks: first those that always block, then those that block except where semitransparent casters are told
+/// apart (opaque glass), then those that cast only there (blended).
+struct CasterRanges {
+    std::vector<shaders::CasterBlock> blocks;
+    uint32_t solid = 0, opaque = 0; ///< ends of the first two parts
+};
+CasterRanges caster_ranges(const shadow::SceneGpu&);
+
+/// What one frame's passes share.
+struct TreeBuffers {
+    gpu::BufferId words, tiles, volumes, groups, counts;
+    std::array<gpu::BufferId, 3> sums; ///< of the modes that add up: u32 for each node's child
+};
+/// The sums, all 0, or none. Throws Error where they are more than the device can bind.
+void make_sums(gpu::PassList&, const shaders::Tree&, const Params&, TreeBuffers&);
+
+/// The volumes in `b` are those of semitransparent triangles: adds what each takes away.
+void traverse_clear(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, const Params&, const TreeBuffers& b);
+/// Writes the mean of each pixel's samples.
+void resolve_samples(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, const Params&, const TreeBuffers& b);
+
+/// Samples of a pixel, right and down.
+uvec2 samples_per_pixel(const Params&);
+/// The same picture with a pixel for each sample.
+scene::View finer_view(scene::View, const Params&);
+
+} // namespace gnomon::techniques::per_triangle_volumes
