@@ -21,6 +21,7 @@ layout(set = 0, binding = 7, scalar) readonly buffer Materials { Material materi
 layout(set = 0, binding = 8, scalar) readonly buffer Attributes { VertexAttributes attributes[]; };
 layout(set = 0, binding = 9, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { Tree tree; };
+#define TREE tree
 layout(set = 2, binding = 0) uniform sampler2D textures[];
 
 #include "shaders/alpha.glsl"
@@ -53,7 +54,7 @@ void settle(uint word, uint children) { atomicOr(words[word], children); }
 void traverse_all()
 {
     const uint end = team_first(count);
-    for (uint i = team_index(); i < end; i += team_count()) traverse(tree, volumes[i], tree.height, uvec2(0));
+    for (uint i = team_index(); i < end; i += team_count()) traverse(volumes[i], tree.height, uvec2(0));
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "techniques/per_triangle_volumes/clear_sums.glsl"
 #include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
 #include "techniques/per_triangle_volumes/team.glsl"
+#define TREE c.tree
 
 // Semitransparent casters. With one share for each triangle a tile that is wholly inside is done by one addition; where it differs by
 // sample, all samples below are visited.
@@ -82,7 +83,7 @@ bool hits(Volume v, uvec2 at, vec3 e)
     if (MODE == MODE_STOCHASTIC) return !passes_at_random(grey(through), v.primitive, at);
     if (through == vec3(0.0)) return true;
     const uint row = row_shift(1);
-    add(node_index(c.tree, 1, at >> uvec2(row, 5 - row)), child_bit(1, at), uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b)));
+    add(node_index(1, at >> uvec2(row, 5 - row)), child_bit(1, at), uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b)));
     return false;
 }
 
@@ -117,6 +118,6 @@ void main()
             share = MODE == MODE_ALPHA ? uvec3(sum_of(grey(through))) : uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b));
             if (share == uvec3(0)) continue;
         }
-        traverse(c.tree, v, c.tree.height, uvec2(0));
+        traverse(v, TREE.height, uvec2(0));
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/per_triangle_volumes/tree.glsl"
+#include "techniques/per_triangle_volumes/depth_tree.shared.h"
 
 // The nodes of one height from their children.
 layout(local_size_x = 64) in;
@@ -9,6 +9,9 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) buffer Words { uint words[]; };
 layout(set = 0, binding = 1, scalar) buffer Tiles { vec2 tiles[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { Tree tree; uint height; };
+
+#define TREE tree
+#include "techniques/per_triangle_volumes/tree.glsl"
 
 void main()
 {
@@ -23,7 +26,7 @@ void main()
         const uvec2 child = child_of(height, node, i);
         bool open = all(lessThan(child, uvec2(tree.width[height - 1], rows)));
         if (open) {
-            const uint at = node_index(tree, height - 1, child);
+            const uint at = node_index(height - 1, child);
             open = words[at] != 0xffffffffu;
             if (open) depths = vec2(min(depths.x, tiles[at].x), max(depths.y, tiles[at].y));
         }

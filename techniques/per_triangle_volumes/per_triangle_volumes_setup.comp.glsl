@@ -6,6 +6,7 @@
 #include "shaders/scene.glsl"
 #include "src/shadow/parts/caster_blocks.shared.h"
 #include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
+#define TREE c.tree
 
 // An invocation makes the volume of a triangle, where that reaches into the tree at all.
 layout(local_size_x = CASTER_BLOCK) in;
@@ -43,8 +44,8 @@ bool is_culled(Instance i, bool front)
 
 bool append(Volume v)
 {
-    const Box root = node_box(c.tree, c.tree.height, uvec2(0), tiles[c.tree.nodes - 1]);
-    const bool reaches = finite(v.side_0) && finite(v.side_1) && finite(v.side_2) && finite(v.cap) && words[c.tree.nodes - 1] != 0xffffffffu
+    const Box root = node_box(TREE.height, uvec2(0), tiles[TREE.nodes - 1]);
+    const bool reaches = finite(v.side_0) && finite(v.side_1) && finite(v.side_2) && finite(v.cap) && words[TREE.nodes - 1] != 0xffffffffu
         && classify(v, side_limits(v.slot), root) != REJECT;
     if (reaches) volumes[atomicAdd(count, 1)] = v;
     return reaches;

@@ -3,25 +3,29 @@
 // TEAM_IN_SHARED_MEMORY, a group of 32 that exchanges bits through shared memory and barriers, for devices without ballots.
 #ifndef GNOMON_TEAM_GLSL
 #define GNOMON_TEAM_GLSL
+#include "techniques/per_triangle_volumes/depth_tree.shared.h"
 
 layout(local_size_x = 32) in;
 
 #ifdef TEAM_IN_SHARED_MEMORY
 
 shared uint team_word;
+#define TEAM_BARRIER barrier()
+#define TEAMS_A_GROUP 1
 
 const uint team_lanes = 32;
 uint team_lane() { return gl_LocalInvocationIndex; }
+uint team_in_group() { return 0; }
 uint team_index() { return gl_WorkGroupID.x; }
 uint team_count() { return gl_NumWorkGroups.x; }
 bool team_elect() { return gl_LocalInvocationIndex == 0; }
 
-uint team_ballot(bool vote)
+uint team_or(uint bits)
 {
     barrier();
     if (gl_LocalInvocationIndex == 0) team_word = 0;
     barrier();
-    if (vote) atomicOr(team_word, 1u << gl_LocalInvocationIndex);
+    if (bits != 0) atomicOr(team_word, bits);
     barrier();
     return team_word;
 }
@@ -37,18 +41,26 @@ uint team_first(uint value)
 
 #else
 
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
 // 0: all of the subgroup. Fewer only show that any number will do.
 layout(constant_id = 0) const uint LANES = 0;
+#define TEAMS_A_GROUP 32
+#define TEAM_BARRIER subgroupMemoryBarrierShared()
 #define team_lanes (LANES == 0 ? gl_SubgroupSize : LANES)
 uint team_lane() { return gl_SubgroupInvocationID; }
+uint team_in_group() { return gl_SubgroupID; }
 uint team_index() { return gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID; }
 uint team_count() { return gl_NumWorkGroups.x * gl_NumSubgroups; }
 bool team_elect() { return subgroupElect(); }
-uint team_ballot(bool vote) { return subgroupBallot(vote && gl_SubgroupInvocationID < min(team_lanes, 32)).x; }
+// Lavapipe takes a loop over lanes for it, as it does for a ballot.
+uint team_or(uint bits) { return subgroupOr(bits); }
 uint team_first(uint value) { return subgroupBroadcastFirst(value); }
 
 #endif
+
+// Children that are still to be descended into, by height: a team's stack. In registers it would be indexed memory of every lane.
+shared uint team_pending[TEAMS_A_GROUP][TREE_MAX_HEIGHT + 1];
 
 #endif

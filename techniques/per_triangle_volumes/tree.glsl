@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Before including it, define TREE: the Tree in the pass's constants. It is no argument, because lavapipe copies the arrays of an argument.
 #ifndef GNOMON_TREE_GLSL
 #define GNOMON_TREE_GLSL
 #extension GL_GOOGLE_include_directive : require
@@ -8,7 +9,7 @@ const float NOWHERE = 1e30; // beyond all depths
 
 // Words hold a bit for each child of a node: set where nothing below is left to darken, because all of it is dark, faces away from the
 // light, is background, or does not exist.
-uint node_index(Tree tree, uint height, uvec2 node) { return tree.first[height] + node.y * tree.width[height] + node.x; }
+uint node_index(uint height, uvec2 node) { return TREE.first[height] + node.y * TREE.width[height] + node.x; }
 
 // Children of a node lie in rows of 2^this.
 uint row_shift(uint height) { return 2 + (height & 1); }
@@ -27,18 +28,18 @@ uint child_bit(uint height, uvec2 child)
 
 // Of a sample's centre. The sum is exact and the product is rounded once, so that x does not decrease from one sample to the next: a tile's
 // first and last sample bound those between bit for bit.
-vec2 sample_ndc(Tree tree, uvec2 at)
+vec2 sample_ndc(uvec2 at)
 {
-    precise const vec2 x = vec2(ivec2(2 * at + 1) - ivec2(tree.samples)) * tree.step;
+    precise const vec2 x = vec2(ivec2(2 * at + 1) - ivec2(TREE.samples)) * TREE.step;
     return x;
 }
 
 // A sample's depth is off by a few roundings, and it must not lie behind its own surface. It is moved towards the eye, off the side that is
 // seen; every plane of every triangle then sees the same point, so that what holds for all points behind a closed surface holds for it. (A
 // bias of the triangles' own planes let light in through those that the light sees edge-on.)
-float receiver_depth(Tree tree, float depth)
+float receiver_depth(float depth)
 {
-    precise const float z = depth + ((depth * tree.nearer.z + tree.nearer.y) * depth + tree.nearer.x);
+    precise const float z = depth + ((depth * TREE.nearer.z + TREE.nearer.y) * depth + TREE.nearer.x);
     return z;
 }
 
@@ -47,10 +48,10 @@ struct Box {
     vec2 x, y, z; // least and greatest
 };
 
-Box node_box(Tree tree, uint height, uvec2 node, vec2 depths)
+Box node_box(uint height, uvec2 node, vec2 depths)
 {
     const uvec2 shift = tree_shift(height);
-    const vec2 least = sample_ndc(tree, node << shift), most = sample_ndc(tree, min((node + 1) << shift, tree.samples) - 1);
+    const vec2 least = sample_ndc(node << shift), most = sample_ndc(min((node + 1) << shift, TREE.samples) - 1);
     return Box(vec2(least.x, most.x), vec2(least.y, most.y), depths);
 }
 
