@@ -49,8 +49,8 @@ private:
     {
         const scene::View view = finer_view(drawn.view, params);
         const Frame frame{drawn.scene, view, drawn.light, drawn.resources,
-            params.samples == 0 ? drawn.gbuffer : draw_gbuffer(passes, drawn.resources, view, {.material = false}), drawn.output, drawn.index,
-            nullptr, drawn.counters};
+            params.samples == 0 ? drawn.gbuffer : draw_gbuffer(passes, drawn.resources, view, {.material = false}), drawn.output,
+            drawn.index, nullptr, drawn.counters};
         if (!blocks_) read_casters(frame.resources);
         const Tree tree = make_tree(frame.view);
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
