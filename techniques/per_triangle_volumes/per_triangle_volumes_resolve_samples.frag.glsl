@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/per_triangle_volumes/clear_sums.glsl"
-#include "techniques/per_triangle_volumes/tree.glsl"
+#include "techniques/per_triangle_volumes/depth_tree.shared.h"
 
 layout(constant_id = 0) const uint CHANNELS = 0; // of the sums
 
@@ -17,6 +17,9 @@ layout(set = 1, binding = 0, scalar) uniform Constants
     uvec2 per_pixel;
 };
 
+#define TREE tree
+#include "techniques/per_triangle_volumes/tree.glsl"
+
 layout(location = 0) out vec4 through;
 
 // What is set or summed up at a node holds for all samples below.
@@ -26,7 +29,7 @@ vec3 sample_through(uvec2 at)
     for (uint height = 1; height <= tree.height; ++height) {
         const uint row = row_shift(height);
         const uvec2 node = at >> uvec2(row, 5 - row);
-        const uint word = node_index(tree, height, node), child = child_bit(height, at), i = 32 * word + child;
+        const uint word = node_index(height, node), child = child_bit(height, at), i = 32 * word + child;
         if ((words[word] >> child & 1u) != 0) return vec3(0.0);
         if (CHANNELS > 0) sum.r = saturated(sum.r, red[i]);
         if (CHANNELS > 1) sum.g = saturated(sum.g, green[i]), sum.b = saturated(sum.b, blue[i]);
