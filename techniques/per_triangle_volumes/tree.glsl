@@ -57,12 +57,12 @@ float receiver_depth(float depth)
 const uint DEPTH_BASE = 97u << 23;
 const uint NO_TILE = 0xffffu;
 
-uint depth_code(float depth) { return uint(clamp(int(floatBitsToUint(depth)) - int(DEPTH_BASE), 0, 0x7ffffff)) >> 11; }
+uint depth_code(float depth) { return uint(clamp(int(floatBitsToUint(depth)) - int(DEPTH_BASE), 0, 0xfffffff)) >> 12; }
 uint pack_depths(vec2 depths) { return depths.x > depths.y ? NO_TILE : depth_code(depths.x) | min(depth_code(depths.y) + 1, 0xffffu) << 16; }
 vec2 unpack_depths(uint code)
 {
     const uvec2 both = uvec2(code & 0xffffu, code >> 16);
-    return vec2(both.x == 0 ? 0.0 : uintBitsToFloat((both.x << 11) + DEPTH_BASE), both.y == 0xffffu ? NOWHERE : uintBitsToFloat((both.y << 11) + DEPTH_BASE));
+    return vec2(both.x == 0 ? 0.0 : uintBitsToFloat((both.x << 12) + DEPTH_BASE), both.y == 0xffffu ? NOWHERE : uintBitsToFloat((both.y << 12) + DEPTH_BASE));
 }
 
 // Of all samples below a node that may still be darkened.
