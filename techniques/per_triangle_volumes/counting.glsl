@@ -5,6 +5,7 @@
 
 layout(constant_id = 1) const uint COUNTING = 0;
 
+// What is counted: `Counts counts` of the pass.
 #define COUNT(name, number)                          \
     do {                                             \
         if (COUNTING != 0) atomicAdd(name, number);  \

@@ -42,7 +42,7 @@ shaders::Tree make_tree(const scene::View& view, uvec2 samples_a_pixel)
         tree.first[height] = tree.nodes;
         tree.width[height] = nodes(height).x;
         tree.nodes += nodes(height).x * nodes(height).y;
-        if (nodes(height) == uvec2(1)) break;
+        if (nodes(height) == uvec2(1) && height >= 3) break; // traverse.glsl begins above LISTED_HEIGHT
     }
     for (uint32_t height = tree.height + 1; height <= TREE_MAX_HEIGHT; ++height) tree.first[height] = tree.nodes;
     return tree;

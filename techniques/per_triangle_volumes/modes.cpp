@@ -79,20 +79,13 @@ void make_sums(gpu::PassList& passes, const Tree& tree, const Params& params, Tr
 
 void traverse_clear(gpu::PassList& passes, const Frame& frame, const Tree& tree, const Params& params, const TreeBuffers& b)
 {
-    SceneGpu& scene = frame.resources;
     gpu::BufferId none = b.sums[0];
     if (!none) passes.fill(none = passes.transient(gpu::BufferDesc{16, 0, gpu::Memory::device, "no sums"}), 0, "no sums");
-    const std::array<gpu::SpecConstant, 2> constants{{{1, uint32_t(frame.counters != nullptr)}, {2, uint32_t(params.mode)}}};
-    passes.compute({.name = "traverse clear",
-        .program = &passes.device().compute_program("techniques/per_triangle_volumes/per_triangle_volumes_clear.comp", constants),
-        .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
-            {b.tiles, gpu::Use::load}, {b.volumes, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
-            {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
-            {passes.import(scene.attributes()), gpu::Use::load}, {none, gpu::Use::update}, {sums_or(b, 1, none), gpu::Use::update},
-            {sums_or(b, 2, none), gpu::Use::update}, {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
-        .constants = ClearConstants{tree, frame.index, uint(params.texture_level), 2 * uint(params.samples)},
-        .textures = &scene.textures(),
-        .indirect = b.groups});
+    traverse(passes, frame, b,
+        {.shader = "clear",
+            .specialised = {{2, uint32_t(params.mode)}},
+            .constants = ClearConstants{tree, frame.index, uint(params.texture_level), 2 * uint(params.samples)},
+            .bindings = {{none, gpu::Use::update}, {sums_or(b, 1, none), gpu::Use::update}, {sums_or(b, 2, none), gpu::Use::update}}});
 }
 
 void resolve_samples(gpu::PassList& passes, const Frame& frame, const Tree& tree, const Params& params, const TreeBuffers& b)

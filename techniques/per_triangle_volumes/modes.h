@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shadow/technique.h"
 #include "src/shadow/parts/caster_blocks.shared.h"
-#include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
+#include "techniques/per_triangle_volumes/traversal.h"
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -23,11 +21,6 @@ struct CasterRanges {
 };
 CasterRanges caster_ranges(const shadow::SceneGpu&);
 
-/// What one frame's passes share.
-struct TreeBuffers {
-    gpu::BufferId words, tiles, volumes, groups, counts;
-    std::array<gpu::BufferId, 3> sums; ///< of the modes that add up: u32 for each node's child
-};
 /// The sums, all 0, or none. Throws Error where they are more than the device can bind.
 void make_sums(gpu::PassList&, const shaders::Tree&, const Params&, TreeBuffers&);
 

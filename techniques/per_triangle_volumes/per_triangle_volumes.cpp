@@ -54,14 +54,7 @@ private:
         if (!blocks_) read_casters(frame.resources);
         const Tree tree = make_tree(frame.view);
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
-        const auto transient = [&](uint64_t bytes, const char* name, VkBufferUsageFlags usage = 0) {
-            return passes.transient(gpu::BufferDesc{bytes, usage, gpu::Memory::device, name});
-        };
-        Buffers b{transient(4 * uint64_t(tree.nodes), "words"), transient(8 * uint64_t(tree.nodes), "tiles"),
-            transient(4 + uint64_t(room) * sizeof(Volume), "volumes"),
-            transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT),
-            transient(sizeof(Counts), "counts"), {}};
-        if (frame.counters) count(passes, *frame.counters, b);
+        Buffers b = make_buffers(passes, frame, tree, room);
         build_tree(passes, frame, tree, b);
         VolumeConstants c = volume_constants(frame, tree, params);
         const auto cast_all = [&](uint32_t first, uint32_t end, bool clear) {
@@ -94,13 +87,6 @@ private:
         const gpu::SpecConstant constants[] = {{1, 1}};
         return device_.compute_program(
             std::string("techniques/per_triangle_volumes/per_triangle_volumes_") + name + ".comp", std::span(constants, counting ? 1 : 0));
-    }
-
-    static void count(gpu::PassList& passes, std::vector<Counter>& counters, const Buffers& b)
-    {
-        passes.fill(b.counts, 0, "no counts");
-        constexpr const char* names[] = {"triangles", "triangles_culled", "tile_tests", "sample_tests"};
-        for (uint32_t i = 0; i < std::size(names); ++i) counters.push_back({names[i], b.counts, 4 * i});
     }
 
     static VolumeConstants volume_constants(const Frame& frame, const Tree& tree, const Params& params)
@@ -143,33 +129,22 @@ private:
     void cast(gpu::PassList& passes, const Frame& frame, const VolumeConstants& c, const Params& params, const Buffers& b, bool clear)
     {
         SceneGpu& scene = frame.resources;
-        passes.fill(b.volumes, 0, "no volumes");
+        passes.fill(b.work, 0, "no work");
         passes.compute({.name = "setup",
             .program = &program("setup", frame.counters),
             .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
-                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load}, {b.volumes, gpu::Use::update},
-                {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
+                {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load}, {b.volumes, gpu::Use::store},
+                {b.work, gpu::Use::update}, counting(frame, b)},
             .constants = c,
             .threads = {c.blocks * CASTER_BLOCK}});
-        const bool shared = params.team == 1 && !clear;
-        passes.compute({.name = "groups",
-            .program = &program("groups"),
-            .bindings = {{b.volumes, gpu::Use::load}, {b.groups, gpu::Use::store}},
-            .constants = uint32_t(shared)});
         if (clear) {
             traverse_clear(passes, frame, c.tree, params, b);
             return;
         }
-        passes.compute({.name = "traverse",
-            .program = &program(shared ? "traverse_shared" : "traverse", frame.counters),
-            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}, {b.words, gpu::Use::update},
-                {b.tiles, gpu::Use::load}, {b.volumes, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
-                {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.materials()), gpu::Use::load},
-                {passes.import(scene.attributes()), gpu::Use::load}, {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}},
-            .constants = c.tree,
-            .textures = &scene.textures(),
-            .indirect = b.groups});
+        const bool shared = params.team == 1;
+        traverse(passes, frame, b,
+            {.shader = shared ? "traverse_shared" : "traverse", .specialised = {}, .constants = c.tree, .teams_are_groups = shared});
     }
 
     void read_casters(SceneGpu& scene)

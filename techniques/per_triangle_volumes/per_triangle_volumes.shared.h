@@ -26,6 +26,11 @@ struct Volume {
 #define VOLUME_OPEN 1u ///< << i: side i excludes its own plane, which belongs to the triangle on the other side
 #define VOLUME_MASKED 8u
 
+/// Nodes of this height, 32 x 32 samples, are where the first pass leaves off and the second begins.
+#define LISTED_HEIGHT 2
+#define PHASE_EXPAND 0
+#define PHASE_DRAIN 1
+
 #define CULL_NONE 0
 #define CULL_FRONT 1
 #define CULL_BACK 2
@@ -43,6 +48,7 @@ struct Volume {
 struct Counts {
     uint triangles, triangles_culled; ///< looked at; of them those that reach no sample
     uint tile_tests, sample_tests;
+    uint queue_entries; ///< nodes at which the second pass goes on
 };
 
 struct TreeConstants {

@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D normal_image;
 layout(set = 0, binding = 2, scalar) writeonly buffer Words { uint words[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer Tiles { vec2 tiles[]; };
+layout(set = 0, binding = 3, scalar) writeonly buffer Tiles { uint tiles[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { TreeConstants c; };
 
 #include "techniques/per_triangle_volumes/tree.glsl"
@@ -36,5 +36,5 @@ void main()
         done |= uint(!lit) << i;
     }
     words[index] = done;
-    tiles[index] = depths;
+    tiles[tile_index(1, node)] = pack_depths(depths);
 }

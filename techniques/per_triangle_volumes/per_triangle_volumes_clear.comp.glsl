@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_nonuniform_qualifier : require
-#include "shaders/material.glsl"
 #include "shaders/random.glsl"
 #include "techniques/per_triangle_volumes/clear_sums.glsl"
-#include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
 #include "techniques/per_triangle_volumes/team.glsl"
-#define TREE c.tree
+#include "techniques/per_triangle_volumes/traverse_bindings.glsl"
+#include "shaders/material.glsl"
 
 // Semitransparent casters. With one share for each triangle a tile that is wholly inside is done by one addition; where it differs by
 // sample, all samples below are visited.
 layout(constant_id = 2) const uint MODE = MODE_RGB;
 
-layout(set = 0, binding = 0) uniform sampler2D depth_image;
-layout(set = 0, binding = 1) uniform usampler2D primitive_image;
-layout(set = 0, binding = 2, scalar) buffer Words { uint words[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Tiles { vec2 tiles[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Volumes
-{
-    uint count;
-    Volume volumes[];
-};
-layout(set = 0, binding = 5, scalar) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 6, scalar) readonly buffer Indices { uint indices[]; };
-layout(set = 0, binding = 7, scalar) readonly buffer Materials { Material materials[]; };
-layout(set = 0, binding = 8, scalar) readonly buffer Attributes { VertexAttributes attributes[]; };
-layout(set = 0, binding = 9, scalar) buffer Red { uint red[]; }; // or grey
-layout(set = 0, binding = 10, scalar) buffer Green { uint green[]; };
-layout(set = 0, binding = 11, scalar) buffer Blue { uint blue[]; };
-layout(set = 0, binding = 12, scalar) buffer Counting { Counts counts; };
+layout(set = 0, binding = 12, scalar) buffer Red { uint red[]; }; // or grey
+layout(set = 0, binding = 13, scalar) buffer Green { uint green[]; };
+layout(set = 0, binding = 14, scalar) buffer Blue { uint blue[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { ClearConstants c; };
-layout(set = 2, binding = 0) uniform sampler2D textures[];
+#define TREE c.tree
 
 uvec3 share; // of the triangle at hand, where it has one
 
-#include "techniques/per_triangle_volumes/counting.glsl"
 #include "techniques/per_triangle_volumes/volume.glsl"
 #include "techniques/per_triangle_volumes/surface_at.glsl"
 
@@ -72,8 +55,15 @@ bool passes_at_random(float transmittance, uint primitive, uvec2 at)
     return transmittance >= 1.0 || number < uint(transmittance * 4294967296.0);
 }
 
-const bool INSIDE_IS_KNOWN = MODE == MODE_TEXTURED || MODE == MODE_STOCHASTIC;
-bool takes_tiles(Volume v) { return !INSIDE_IS_KNOWN; }
+bool takes_tiles(Volume v) { return MODE == MODE_ALPHA || MODE == MODE_RGB; }
+
+bool begins(Volume v)
+{
+    if (!takes_tiles(v)) return true;
+    const vec3 through = mean_transmittance(v);
+    share = MODE == MODE_ALPHA ? uvec3(sum_of(grey(through))) : uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b));
+    return share != uvec3(0);
+}
 
 bool hits(Volume v, uvec2 at, vec3 e)
 {
@@ -87,19 +77,10 @@ bool hits(Volume v, uvec2 at, vec3 e)
     return false;
 }
 
-void count_tests(uint height, uint tests)
-{
-    if (height == 0) {
-        COUNT(counts.sample_tests, tests);
-    } else {
-        COUNT(counts.tile_tests, tests);
-    }
-}
-
 // What lets nothing through is as opaque as any caster.
 void settle(uint word, uint children)
 {
-    if (INSIDE_IS_KNOWN || share == uvec3(SUM_LIMIT)) {
+    if (MODE == MODE_TEXTURED || MODE == MODE_STOCHASTIC || share == uvec3(SUM_LIMIT)) {
         atomicOr(words[word], children);
         return;
     }
@@ -108,16 +89,4 @@ void settle(uint word, uint children)
 
 #include "techniques/per_triangle_volumes/traverse.glsl"
 
-void main()
-{
-    const uint end = team_first(count);
-    for (uint i = team_index(); i < end; i += team_count()) {
-        const Volume v = volumes[i];
-        if (takes_tiles(v)) {
-            const vec3 through = mean_transmittance(v);
-            share = MODE == MODE_ALPHA ? uvec3(sum_of(grey(through))) : uvec3(sum_of(through.r), sum_of(through.g), sum_of(through.b));
-            if (share == uvec3(0)) continue;
-        }
-        traverse(v, TREE.height, uvec2(0));
-    }
-}
+void main() { run(); }

@@ -7,14 +7,14 @@
 // Groups for a pass with a team for each of so many things. What is more than a device takes is left to teams that take several.
 layout(local_size_x = 32) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Things { uint count; };
+layout(set = 0, binding = 0, scalar) readonly buffer Work { uint work[2]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Groups { uint groups[3]; };
-layout(set = 1, binding = 0, scalar) uniform Constants { uint teams_are_groups; };
+layout(set = 1, binding = 0, scalar) uniform Constants { uint which, most, teams_are_groups; };
 
 void main()
 {
     if (gl_LocalInvocationIndex != 0) return;
-    const uint teams = teams_are_groups != 0 ? 1 : gl_NumSubgroups;
-    groups[0] = min((count + teams - 1) / teams, 65535);
+    const uint teams = teams_are_groups != 0 ? 1 : gl_NumSubgroups, things = min(work[which], most);
+    groups[0] = min(things / teams + uint(things % teams != 0), 65535);
     groups[1] = groups[2] = 1;
 }

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) buffer Words { uint words[]; };
-layout(set = 0, binding = 1, scalar) buffer Tiles { vec2 tiles[]; };
+layout(set = 0, binding = 1, scalar) buffer Tiles { uint tiles[]; };
 layout(set = 1, binding = 0, scalar) uniform Constants { Tree tree; uint height; };
 
 #define TREE tree
@@ -21,17 +21,18 @@ void main()
     const uvec2 node = uvec2(offset % tree.width[height], offset / tree.width[height]);
     const uint rows = (tree.first[height] - tree.first[height - 1]) / tree.width[height - 1];
     uint done = 0;
-    vec2 depths = vec2(NOWHERE, 0.0);
+    uvec2 codes = uvec2(NO_TILE, 0);
     for (uint i = 0; i < 32; ++i) {
         const uvec2 child = child_of(height, node, i);
         bool open = all(lessThan(child, uvec2(tree.width[height - 1], rows)));
         if (open) {
             const uint at = node_index(height - 1, child);
             open = words[at] != 0xffffffffu;
-            if (open) depths = vec2(min(depths.x, tiles[at].x), max(depths.y, tiles[at].y));
+            const uint code = tiles[tile_index(index, i)];
+            if (open) codes = uvec2(min(codes.x, code & 0xffffu), max(codes.y, code >> 16));
         }
         done |= uint(!open) << i;
     }
     words[index] = done;
-    tiles[index] = depths;
+    tiles[tile_index(height, node)] = codes.x | codes.y << 16;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #include "techniques/per_triangle_volumes/clear_sums.glsl"
 #include "techniques/per_triangle_volumes/depth_tree.shared.h"
+
 layout(constant_id = 0) const uint CHANNELS = 0; // of the sums
 
 layout(set = 0, binding = 0) uniform sampler2D depth_image;
@@ -17,10 +17,10 @@ layout(set = 1, binding = 0, scalar) uniform Constants
     uvec2 per_pixel;
 };
 
-layout(location = 0) out vec4 through;
-
 #define TREE tree
 #include "techniques/per_triangle_volumes/tree.glsl"
+
+layout(location = 0) out vec4 through;
 
 // What is set or summed up at a node holds for all samples below.
 vec3 sample_through(uvec2 at)

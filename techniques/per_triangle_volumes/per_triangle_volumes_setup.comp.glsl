@@ -12,18 +12,15 @@
 layout(local_size_x = CASTER_BLOCK) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Words { uint words[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Tiles { vec2 tiles[]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Tiles { uint tiles[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Indices { uint indices[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Blocks { CasterBlock blocks[]; };
-layout(set = 0, binding = 7, scalar) buffer Volumes
-{
-    uint count;
-    Volume volumes[];
-};
-layout(set = 0, binding = 8, scalar) buffer Counting { Counts counts; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Volumes { Volume volumes[]; };
+layout(set = 0, binding = 8, scalar) buffer Work { uint made, listed; };
+layout(set = 0, binding = 9, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeConstants c; };
 
 #include "techniques/per_triangle_volumes/counting.glsl"
@@ -44,10 +41,10 @@ bool is_culled(Instance i, bool front)
 
 bool append(Volume v)
 {
-    const Box root = node_box(TREE.height, uvec2(0), tiles[TREE.nodes - 1]);
+    const Box root = tile_box(TREE.height, uvec2(0), tiles[tile_index(TREE.height, uvec2(0))]);
     const bool reaches = finite(v.side_0) && finite(v.side_1) && finite(v.side_2) && finite(v.cap) && words[TREE.nodes - 1] != 0xffffffffu
         && classify(v, side_limits(v.slot), root) != REJECT;
-    if (reaches) volumes[atomicAdd(count, 1)] = v;
+    if (reaches) volumes[atomicAdd(made, 1)] = v;
     return reaches;
 }
 

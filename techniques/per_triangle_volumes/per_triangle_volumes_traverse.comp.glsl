@@ -4,4 +4,4 @@
 #include "techniques/per_triangle_volumes/team.glsl"
 #include "techniques/per_triangle_volumes/binary_traverse.glsl"
 
-void main() { traverse_all(); }
+void main() { run(); }

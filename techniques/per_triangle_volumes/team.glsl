@@ -30,6 +30,8 @@ uint team_or(uint bits)
     return team_word;
 }
 
+uvec2 team_same(uvec2 value) { return value; }
+
 // The same value for all, whatever others write meanwhile to where it came from.
 uint team_first(uint value)
 {
@@ -57,10 +59,13 @@ bool team_elect() { return subgroupElect(); }
 // Lavapipe takes a loop over lanes for it, as it does for a ballot.
 uint team_or(uint bits) { return subgroupOr(bits); }
 uint team_first(uint value) { return subgroupBroadcastFirst(value); }
+// Of a value that is the same for all: says so to the compiler. Lavapipe fetches by lanes what depends on others.
+uvec2 team_same(uvec2 value) { return subgroupBroadcastFirst(value); }
 
 #endif
 
-// Children that are still to be descended into, by height: a team's stack. In registers it would be indexed memory of every lane.
-shared uint team_pending[TEAMS_A_GROUP][TREE_MAX_HEIGHT + 1];
+// Children that are still to be descended into, by height, and which of them lie inside of the volume. In registers this stack would be
+// indexed memory of every lane.
+shared uint team_stack[TEAMS_A_GROUP][TREE_MAX_HEIGHT + 1], team_certain[TEAMS_A_GROUP][TREE_MAX_HEIGHT + 1];
 
 #endif

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A team takes one volume down the tree, depth first. What becomes of tiles and samples in it is up to the includer:
-//   const bool INSIDE_IS_KNOWN                whether what lies below a tile that is wholly inside is spared the test; costs time elsewhere
+// Teams take volumes down the tree in two passes: the first down to nodes of 32 x 32 samples, which it lists; the second goes on from there
+// with a team for each of these, so that a triangle over all of the picture keeps as many teams busy as one has. What finds no room in the
+// list the first pass takes to its end itself. What becomes of tiles and samples in a volume is up to the includer:
+//   bool begins(Volume)                       called before each volume; false where it darkens nothing
 //   bool takes_tiles(Volume)                  whether a tile that is wholly inside is settled at once, or its samples one by one
 //   bool hits(Volume, uvec2 sample, vec3 e)   whether a sample inside is hit; e as of is_inside
-//   void count_tests(uint height, uint tests) of children of that height, called as settle is
 //   void settle(uint word, uint children)     called by one invocation of the team: children of a node, tiles or samples
-// Include after `words`, `tiles`, `depth_image` and team.glsl.
+// Include after traverse_bindings.glsl, TREE and team.glsl.
 #ifndef GNOMON_TRAVERSE_GLSL
 #define GNOMON_TRAVERSE_GLSL
+#include "techniques/per_triangle_volumes/counting.glsl"
 #include "techniques/per_triangle_volumes/volume.glsl"
 
+layout(constant_id = 3) const uint PHASE = PHASE_EXPAND;
+
+// `inside`: it is known already to lie in the volume, as all below a tile do that does.
 bool hits_sample(Volume v, vec3 limits, uvec2 at, bool inside)
 {
     const vec3 p = vec3(sample_ndc(at), receiver_depth(texelFetch(depth_image, ivec2(at), 0).r));
@@ -17,72 +22,128 @@ bool hits_sample(Volume v, vec3 limits, uvec2 at, bool inside)
     return (is_inside(v, limits, p, e) || inside) && hits(v, at, e);
 }
 
-int classify_tile(Volume v, vec3 limits, uint height, uvec2 tile)
-{
-    return classify(v, limits, node_box(height, tile, tiles[node_index(height, tile)]));
-}
+// Children to descend into. `certain` are those of them that lie inside, whose samples still differ.
+struct Found {
+    uint children, certain;
+};
 
-// Tests the children of a node that are not settled yet, and returns those to descend into. `certain` are those of them that lie inside,
-// if their samples differ all the same.
-uint visit(Volume v, vec3 limits, uint height, uvec2 node, bool inside, out uint certain)
+// Tests the children of a node that are not settled yet.
+Found visit(Volume v, vec3 limits, uint height, uvec2 node, bool inside)
 {
-    certain = 0;
     const uint word = node_index(height, node);
     const uint open = team_first(~words[word]); // as it was some time ago, which only costs tests
-    if (open == 0 || (INSIDE_IS_KNOWN && inside && height > 1)) return open;
-    if (team_elect()) count_tests(height - 1, bitCount(open));
+    if (open == 0) return Found(0, 0);
+    if (inside && height > 1) return Found(open, open);
+    if (team_elect()) {
+        if (height > 1)
+            COUNT(counts.tile_tests, bitCount(open));
+        else
+            COUNT(counts.sample_tests, bitCount(open));
+    }
     uint settled = 0, refined = 0; // of this lane's children
     for (uint child = team_lane(); child < 32; child += team_lanes) {
         if ((open >> child & 1u) == 0) continue;
         const uvec2 at = child_of(height, node, child);
         int verdict;
         if (height > 1)
-            verdict = classify_tile(v, limits, height - 1, at);
+            verdict = classify(v, limits, tile_box(height - 1, at, tiles[tile_index(word, child)]));
         else
-            verdict = hits_sample(v, limits, at, INSIDE_IS_KNOWN && inside) ? ACCEPT : REJECT;
+            verdict = hits_sample(v, limits, at, inside) ? ACCEPT : REJECT;
         settled |= uint(verdict == ACCEPT) << child;
         refined |= uint(verdict == REFINE) << child;
     }
     settled = team_or(settled);
-    if (height > 1 && !takes_tiles(v)) {
-        if (INSIDE_IS_KNOWN) certain = settled;
-        return team_or(refined) | settled;
-    }
+    if (height > 1) refined = team_or(refined);
+    if (height > 1 && !takes_tiles(v)) return Found(refined | settled, settled);
     if (settled != 0 && team_elect()) settle(word, settled);
-    return height > 1 ? team_or(refined) : 0;
+    return Found(height > 1 ? refined : 0, 0);
 }
 
-void push(uint height, uint children)
+// From a node of 32 x 32 samples to the end.
+void finish(Volume v, vec3 limits, uvec2 node, bool inside)
 {
-    if (team_elect()) team_pending[team_in_group()][height] = children;
+    const Found tiles = visit(v, limits, LISTED_HEIGHT, node, inside);
+    for (uint left = tiles.children; left != 0; left &= left - 1) {
+        const uint child = findLSB(left);
+        visit(v, limits, LISTED_HEIGHT - 1, child_of(LISTED_HEIGHT, node, child), (tiles.certain >> child & 1u) != 0);
+    }
+}
+
+// Lists children that are such nodes.
+void list(Volume v, vec3 limits, uint volume, uvec2 parent, Found found)
+{
+    const uint number = bitCount(found.children);
+    uint first = 0;
+    if (team_elect()) {
+        first = atomicAdd(listed, number);
+        COUNT(counts.queue_entries, number);
+    }
+    first = team_first(first);
+    const uint room = entries.length();
+    for (uint child = team_lane(); child < 32; child += team_lanes) {
+        const uint at = first + bitCount(found.children & ((1u << child) - 1u));
+        if ((found.children >> child & 1u) == 0 || at >= room) continue;
+        const uvec2 node = child_of(LISTED_HEIGHT + 1, parent, child);
+        entries[at] = uvec2(volume << 1 | (found.certain >> child & 1u), node.x | node.y << 16);
+    }
+    uint left = found.children;
+    for (uint at = first; left != 0; ++at, left &= left - 1) {
+        const uint child = findLSB(left);
+        if (at >= room) finish(v, limits, child_of(LISTED_HEIGHT + 1, parent, child), (found.certain >> child & 1u) != 0);
+    }
+}
+
+void push(uint height, Found found)
+{
+    if (team_elect()) {
+        team_stack[team_in_group()][height] = found.children;
+        team_certain[team_in_group()][height] = found.certain;
+    }
     TEAM_BARRIER;
 }
 
-void traverse(Volume v, uint height, uvec2 node)
+// From the root to the nodes to be listed.
+void expand(uint volume)
 {
+    const Volume v = volumes[volume];
+    if (!begins(v)) return;
     const vec3 limits = side_limits(v.slot);
-    const uint top = height;
-    // Children that lie inside come before those to be tested, so that there is one node at a time that has any.
-    uint certain, certain_height = 0, found;
-    push(height, visit(v, limits, height, node, false, found));
-    if (INSIDE_IS_KNOWN && found != 0) certain = found, certain_height = height;
-    while (height <= top) {
-        const uint left = team_first(team_pending[team_in_group()][height]);
-        if (left == 0) {
+    uint height = TREE.height;
+    uvec2 node = uvec2(0);
+    bool inside = false;
+    for (;;) {
+        const Found found = visit(v, limits, height, node, inside);
+        if (height == LISTED_HEIGHT + 1 && found.children != 0) list(v, limits, volume, node, found);
+        push(height, height == LISTED_HEIGHT + 1 ? Found(0, 0) : found);
+        uint left;
+        while ((left = team_first(team_stack[team_in_group()][height])) == 0) {
+            if (height == TREE.height) return;
             ++height;
             const uint row = row_shift(height);
-            node >>= uvec2(row, 5 - row);
-            continue;
+            node = team_same(node >> uvec2(row, 5 - row));
         }
-        if (height == certain_height && certain == 0) certain_height = 0;
-        const bool inside = INSIDE_IS_KNOWN && height <= certain_height;
-        const uint child = findLSB(inside && height == certain_height ? certain : left);
-        if (inside && height == certain_height) certain &= certain - 1;
-        push(height, left & ~(1u << child));
-        node = child_of(height, node, child);
+        const uint child = findLSB(left), certain = team_first(team_certain[team_in_group()][height]);
+        push(height, Found(left & (left - 1), certain));
+        inside = (certain >> child & 1u) != 0;
+        node = team_same(child_of(height, node, child));
         --height;
-        push(height, visit(v, limits, height, node, inside, found));
-        if (INSIDE_IS_KNOWN && found != 0) certain = found, certain_height = height;
+    }
+}
+
+void drain(uvec2 entry)
+{
+    const Volume v = volumes[entry.x >> 1];
+    if (begins(v)) finish(v, side_limits(v.slot), uvec2(entry.y & 0xffffu, entry.y >> 16), (entry.x & 1u) != 0);
+}
+
+void run()
+{
+    const uint end = team_first(PHASE == PHASE_EXPAND ? made : min(listed, entries.length()));
+    for (uint i = team_index(); i < end; i += team_count()) {
+        if (PHASE == PHASE_EXPAND)
+            expand(i);
+        else
+            drain(team_same(entries[i]));
     }
 }
 
