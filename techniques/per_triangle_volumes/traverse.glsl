@@ -17,7 +17,7 @@ layout(constant_id = 3) const uint PHASE = PHASE_EXPAND;
 // `inside`: it is known already to lie in the volume, as all below a tile do that does.
 bool hits_sample(Volume v, vec3 limits, uvec2 at, bool inside)
 {
-    const vec3 p = vec3(sample_ndc(at), receiver_depth(texelFetch(depth_image, ivec2(at), 0).r));
+    const vec3 p = vec3(sample_ndc(at), receiver_depth(depth_on(texelFetch(depth_image, ivec2(pixel_of(at)), 0), at)));
     vec3 e;
     return (is_inside(v, limits, p, e) || inside) && hits(v, at, e);
 }
