@@ -134,8 +134,8 @@ truth::Visibility traced(const scene::Scene& s, const scene::Camera& camera, gpu
     return tracer.transmittance(view, tracer.primary(view), light, {});
 }
 
-/// Cards with a texture of smooth colours and alphas.
-scene::Scene cards(scene::AlphaMode mode, double texels)
+/// Cards with a texture of smooth colours and alphas; or only of alphas, which make shades of grey.
+scene::Scene cards(scene::AlphaMode mode, double texels, bool colored = true)
 {
     scene::Scene s = floor_scene(4);
     scene::Texture t;
@@ -146,6 +146,11 @@ scene::Scene cards(scene::AlphaMode mode, double texels)
                 t.rgba.push_back(uint8_t(std::lround(127.5 + 127.0 * v)));
     s.textures.push_back(t);
     scene::Material m = blended(vec4(0.9f, 1, 0.8f, 0.9f));
+    if (!colored) {
+        m.base_color = vec4(1);
+        for (size_t i = 0; i < t.rgba.size(); ++i)
+            if (i % 4 != 3) s.textures[0].rgba[i] = 255;
+    }
     m.alpha = mode;
     m.base_color_texture = {0, {1.2f, 0.3f, 0.1f}, {-0.2f, 0.9f, 0.4f}};
     if (mode == scene::AlphaMode::mask) m.transmission = 0.4f;
@@ -158,7 +163,7 @@ scene::Scene cards(scene::AlphaMode mode, double texels)
         for (const vec2 corner : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1)}) {
             mesh.positions.push_back(centre + corner.x * u + corner.y * v);
             mesh.uvs.push_back(corner * 0.7f);
-            mesh.colors.push_back(0xff000000u | uint32_t(uniform(0, 1) * 127) << 8 | 0x8040c0u);
+            mesh.colors.push_back(colored ? 0xff000000u | uint32_t(uniform(0, 1) * 127) << 8 | 0x8040c0u : 0xffffffffu);
         }
         for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(4 * k + i);
     }
@@ -217,6 +222,91 @@ TEST_F(PerTriangleModes, BuiltInScenesMatchRayTracing)
             = TechniqueTest::draw(technique_per_triangle_volumes, s, s.cameras[0], size, hard, {{"mode", textured}});
         EXPECT_LT(difference(got, want), 1.0 / 255) << name;
         EXPECT_LT(mean(got), 0.99) << name;
+    }
+}
+
+/// Frames of one still picture: the frame's number is the only seed.
+class PerTriangleStochastic : public PerTriangleModes {
+protected:
+    static constexpr gpu::Size size{40, 30};
+    inline static const scene::Camera near{.eye = {2, 2.5f, 2.5f}, .target = {0, 0, 0}};
+    static std::vector<std::vector<float>> frames(const scene::Scene& s, const char* text, double samples, uint32_t count)
+    {
+        const scene::Light light = scene::parse_light(text, {}, s.bounds());
+        const scene::View view = scene::make_view(near, size, s.bounds());
+        shadow::ParamValues params(technique_per_triangle_volumes.params());
+        params.set("mode", stochastic), params.set("samples", samples), params.set("texture_level", 1.0);
+        shadow::SceneGpu scene(device(), s);
+        gpu::Image out = image("out", shadow::output_format(technique_per_triangle_volumes, params.bytes(), light), size);
+        const std::unique_ptr<shadow::Technique> technique = technique_per_triangle_volumes.create(device());
+        std::vector<std::vector<float>> result;
+        for (uint32_t frame = 0; frame < count; ++frame) {
+            gpu::PassList passes(device());
+            const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
+            technique->record(passes, {s, view, light, scene, g, passes.import(out), frame}, params.bytes());
+            device().submit(std::move(passes));
+            result.push_back(device().read_back(out).values);
+        }
+        return result;
+    }
+};
+
+/// The mean over 256 seeds is the grey transmittance, as far as chance allows: of each pixel, of all together, and of neighbours, which
+/// would stray together if their numbers were related.
+TEST_F(PerTriangleStochastic, TheMeanOverSeedsIsTheTransmittance)
+{
+    constexpr uint32_t count = 256;
+    const scene::Scene s = cards(scene::AlphaMode::blend, 8, false);
+    const char* light = "sun,elevation=70,azimuth=20,angle=0";
+    const std::vector<float> exact = draw(s, near, size, light, {{"mode", textured}, {"texture_level", 1}});
+    const std::vector<std::vector<float>> got = frames(s, light, 0, count);
+    EXPECT_EQ(got[3], frames(s, light, 0, 4)[3]);
+    EXPECT_NE(got[3], got[4]);
+    double sum = 0, variance = 0, chi = 0, together = 0;
+    size_t beyond = 0, random = 0;
+    double last = 0;
+    for (size_t i = 0; i < exact.size(); i += 4) {
+        double mean_got = 0;
+        for (const std::vector<float>& frame : got) {
+            EXPECT_TRUE(frame[i] == 0.0f || frame[i] == 1.0f);
+            mean_got += double(frame[i]) / count;
+        }
+        const double p = double(exact[i]), sigma = std::sqrt(p * (1 - p) / count);
+        if (sigma < 1e-3) {
+            EXPECT_NEAR(mean_got, p, 0.02);
+            continue;
+        }
+        const double off = (mean_got - p) / sigma;
+        beyond += std::abs(off) > 3;
+        sum += mean_got - p, variance += sigma * sigma, chi += off * off, together += off * last;
+        last = off;
+        ++random;
+    }
+    ASSERT_GT(random, 150u);
+    EXPECT_LE(double(beyond), 0.0027 * double(random) + 3 * std::sqrt(0.0027 * double(random)));
+    EXPECT_LT(std::abs(sum), 3 * std::sqrt(variance));
+    EXPECT_LT(std::abs(chi - double(random)), 3 * std::sqrt(2 * double(random)));
+    EXPECT_LT(std::abs(together), 3 * std::sqrt(double(random)));
+}
+
+/// Of a pixel's 4 or 16 samples under a pane of one quarter, each is in a stratum of its own: exactly a quarter are dark.
+TEST_F(PerTriangleStochastic, TheSamplesOfAPixelAreStratified)
+{
+    scene::Scene s = panes({blended(vec4(0, 0, 0, 0.25f))});
+    s.materials[1].base_color = vec4(1, 1, 1, 0.25f);
+    const char* light = "sun,elevation=80,azimuth=10,angle=0";
+    for (const double samples : {1.0, 2.0}) {
+        const std::vector<std::vector<float>> got = frames(s, light, samples, 4);
+        const std::vector<float> exact = draw(s, near, size, light, {{"mode", rgb}, {"samples", samples}});
+        size_t under = 0, diagonal = 0; // where two triangles share a pixel's samples, each draws its own numbers
+        for (const std::vector<float>& frame : got)
+            for (size_t i = 0; i < exact.size(); i += 4) {
+                if (std::abs(exact[i] - 0.75f) > 1e-5f) continue;
+                ++under;
+                diagonal += frame[i] != 0.75f;
+            }
+        EXPECT_GT(under, 1000u);
+        EXPECT_LT(double(diagonal), 0.05 * double(under));
     }
 }
 
