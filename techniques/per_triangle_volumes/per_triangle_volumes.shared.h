@@ -22,7 +22,9 @@ struct Volume {
     vec3 line_0, line_1, line_2, line_3; ///< over (x, y, 1): negative beyond lines in the picture that the volume does not cross
     uint primitive;
     uint slot; ///< of the instance, times 16, and VOLUME_*
+    uint padding[2];
 };
+#define VOLUME_WORDS 32
 #define VOLUME_OPEN 1u ///< << i: side i excludes its own plane, which belongs to the triangle on the other side
 #define VOLUME_MASKED 8u
 

@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/random.glsl"
 #include "techniques/per_triangle_volumes/clear_sums.glsl"
-#include "techniques/per_triangle_volumes/team.glsl"
 #include "techniques/per_triangle_volumes/traverse_bindings.glsl"
 #include "shaders/material.glsl"
 

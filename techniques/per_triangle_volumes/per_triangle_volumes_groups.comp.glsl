@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_basic : require
 
-// Groups for a pass with a team for each of so many things. What is more than a device takes is left to teams that take several.
+// Groups for a pass with a team for each of so many things.
 layout(local_size_x = 32) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Work { uint work[2]; };
@@ -15,6 +15,8 @@ void main()
 {
     if (gl_LocalInvocationIndex != 0) return;
     const uint teams = teams_are_groups != 0 ? 1 : gl_NumSubgroups, things = min(work[which], most);
-    groups[0] = min(things / teams + uint(things % teams != 0), 65535);
-    groups[1] = groups[2] = 1;
+    const uint number = things / teams + uint(things % teams != 0);
+    groups[0] = min(number, 32768);
+    groups[1] = (number + 32767) / 32768;
+    groups[2] = 1;
 }

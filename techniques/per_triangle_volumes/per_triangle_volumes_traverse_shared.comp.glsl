@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define TEAM_IN_SHARED_MEMORY
-#include "techniques/per_triangle_volumes/team.glsl"
 #include "techniques/per_triangle_volumes/binary_traverse.glsl"
 
 void main() { run(); }

@@ -6,7 +6,7 @@
 //   bool takes_tiles(Volume)                  whether a tile that is wholly inside is settled at once, or its samples one by one
 //   bool hits(Volume, uvec2 sample, vec3 e)   whether a sample inside is hit; e as of is_inside
 //   void settle(uint word, uint children)     called by one invocation of the team: children of a node, tiles or samples
-// Include after traverse_bindings.glsl, TREE and team.glsl.
+// Include after traverse_bindings.glsl and TREE.
 #ifndef GNOMON_TRAVERSE_GLSL
 #define GNOMON_TRAVERSE_GLSL
 #include "techniques/per_triangle_volumes/counting.glsl"
@@ -103,10 +103,8 @@ void push(uint height, Found found)
 }
 
 // From the root to the nodes to be listed.
-void expand(uint volume)
+void expand(Volume v, uint volume)
 {
-    const Volume v = volumes[volume];
-    if (!begins(v)) return;
     const vec3 limits = side_limits(v.slot);
     uint height = TREE.height;
     uvec2 node = uvec2(0);
@@ -130,21 +128,41 @@ void expand(uint volume)
     }
 }
 
-void drain(uvec2 entry)
+vec4 volume_plane(TeamWords w, uint i)
 {
-    const Volume v = volumes[entry.x >> 1];
-    if (begins(v)) finish(v, side_limits(v.slot), uvec2(entry.y & 0xffffu, entry.y >> 16), (entry.x & 1u) != 0);
+    return uintBitsToFloat(uvec4(team_word_of(w, i), team_word_of(w, i + 1), team_word_of(w, i + 2), team_word_of(w, i + 3)));
+}
+vec3 volume_line(TeamWords w, uint i) { return uintBitsToFloat(uvec3(team_word_of(w, i), team_word_of(w, i + 1), team_word_of(w, i + 2))); }
+
+Volume load_volume(uint volume)
+{
+    const TeamWords w = team_load(VOLUME_WORDS * volume);
+    Volume v;
+    v.side_0 = volume_plane(w, 0);
+    v.side_1 = volume_plane(w, 4);
+    v.side_2 = volume_plane(w, 8);
+    v.cap = volume_plane(w, 12);
+    v.line_0 = volume_line(w, 16);
+    v.line_1 = volume_line(w, 19);
+    v.line_2 = volume_line(w, 22);
+    v.line_3 = volume_line(w, 25);
+    v.primitive = team_word_of(w, 28);
+    v.slot = team_word_of(w, 29);
+    return v;
 }
 
 void run()
 {
-    const uint end = team_first(PHASE == PHASE_EXPAND ? made : min(listed, entries.length()));
-    for (uint i = team_index(); i < end; i += team_count()) {
-        if (PHASE == PHASE_EXPAND)
-            expand(i);
-        else
-            drain(team_same(entries[i]));
-    }
+    const uint things = PHASE == PHASE_EXPAND ? made : min(listed, entries.length());
+    const uint at = team_index();
+    if (at >= things) return;
+    const uvec2 entry = PHASE == PHASE_EXPAND ? uvec2(at << 1, 0) : entries[at];
+    const Volume v = load_volume(entry.x >> 1);
+    if (!begins(v)) return;
+    if (PHASE == PHASE_EXPAND)
+        expand(v, at);
+    else
+        finish(v, side_limits(v.slot), uvec2(entry.y & 0xffffu, entry.y >> 16), (entry.x & 1u) != 0);
 }
 
 #endif

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0) uniform sampler2D depth_image;
 layout(set = 0, binding = 1) uniform usampler2D primitive_image;
 layout(set = 0, binding = 2, scalar) buffer Words { uint words[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Volumes { Volume volumes[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Volumes { uint volume_words[]; }; // VOLUME_WORDS a volume
 layout(set = 0, binding = 5, scalar) buffer Work { uint made, listed; }; // volumes, entries
 layout(set = 0, binding = 6, scalar) buffer Entries { uvec2 entries[]; }; // volume << 1 | inside, node
 layout(set = 0, binding = 7, scalar) readonly buffer Instances { Instance instances[]; };
@@ -19,5 +19,7 @@ layout(set = 0, binding = 9, scalar) readonly buffer Materials { Material materi
 layout(set = 0, binding = 10, scalar) readonly buffer Attributes { VertexAttributes attributes[]; };
 layout(set = 0, binding = 11, scalar) buffer Counting { Counts counts; };
 layout(set = 2, binding = 0) uniform sampler2D textures[];
+
+#include "techniques/per_triangle_volumes/team.glsl"
 
 #endif
