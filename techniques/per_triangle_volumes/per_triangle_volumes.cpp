@@ -3,6 +3,7 @@
 #include "techniques/per_triangle_volumes/per_triangle_volumes.shared.h"
 
 #include "shadow/light_constants.h"
+#include "shadow/parts/caster_blocks.h"
 #include "shadow/technique.h"
 #include "techniques/per_triangle_volumes/depth_tree.h"
 #include "techniques/per_triangle_volumes/modes.h"
@@ -22,6 +23,13 @@ void describe(Params& p, Fields& fields)
         "are closed.");
     fields.choice("team", p.team, {"ballot", "shared"},
         "How the invocations that walk the tree together exchange bits: by ballots of a subgroup, or through shared memory.");
+    fields.integer("queue", p.queue, {0, 1 << 22}, "entries",
+        "Room in the list of nodes between the two passes down the tree; what finds none is finished by the first. The picture does not "
+        "depend on it.");
+    fields.flag("blockers", p.blockers, "Cast large triangles first and make the tree anew without what they darken.");
+    fields.real("blocker_size", p.blocker_size, {0, 1}, "",
+        "How large a triangle is, as the light sees it, to be one of those: its area over its squared distance, or over the scene's "
+        "squared radius for parallel light, twice.");
     describe_modes(p, fields);
 }
 
@@ -53,7 +61,7 @@ private:
         if (!blocks_) read_casters(frame.resources);
         const Tree tree = make_tree(frame.view, uvec2(1) << (params.samples == SAMPLES_EXTRAPOLATED ? samples_log2(params) : uvec2(0)));
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
-        Buffers b = make_buffers(passes, frame, tree, room);
+        Buffers b = make_buffers(passes, frame, tree, room, uint32_t(params.queue));
         build_tree(passes, frame, tree, b);
         VolumeConstants c = volume_constants(frame, tree, params);
         const auto cast_all = [&](uint32_t first, uint32_t end, bool clear) {
@@ -62,10 +70,16 @@ private:
                 cast(passes, frame, c, params, b, clear);
             }
         };
-        if (params.mode == MODE_BINARY) {
-            cast_all(0, opaque_end_, false);
-        } else {
-            cast_all(0, solid_end_, false);
+        const uint32_t solid = params.mode == MODE_BINARY ? opaque_end_ : solid_end_;
+        if (params.blockers) {
+            c.which = WHICH_LARGE;
+            cast_all(0, solid, false);
+            rebuild_tree(passes, frame, tree, b);
+            c.which = WHICH_OTHERS;
+        }
+        cast_all(0, solid, false);
+        c.which = WHICH_ALL;
+        if (params.mode != MODE_BINARY) {
             if (solid_end_ < block_count_) make_sums(passes, tree, params, b);
             cast_all(solid_end_, block_count_, true);
         }
@@ -96,6 +110,8 @@ private:
         c.world_from_ndc = world_from_ndc(frame.view);
         c.eye = frame.view.eye;
         c.cull = uint32_t(params.cull);
+        const float radius = frame.resources.bounds().radius();
+        c.large = params.blocker_size * (c.light.kind == LIGHT_DIRECTIONAL ? radius * radius : 1.0f);
         const View view = view_constants(frame.view, frame.index);
         c.eye_point = frame.view.orthographic ? vec4(view.forward, 0) : vec4(0, 0, 0, 1);
         const mat4& m = c.world_from_ndc;
@@ -112,6 +128,22 @@ private:
             .constants
             = TreeConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), tree},
             .threads = {tree.first[2]}});
+        reduce_tree(passes, tree, b);
+    }
+
+    /// Without the samples that are dark by now.
+    void rebuild_tree(gpu::PassList& passes, const Frame& frame, const Tree& tree, const Buffers& b) const
+    {
+        passes.compute({.name = "rebuild",
+            .program = &program("rebuild"),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {b.words, gpu::Use::update}, {b.tiles, gpu::Use::store}},
+            .constants = tree,
+            .threads = {tree.first[2]}});
+        reduce_tree(passes, tree, b);
+    }
+
+    void reduce_tree(gpu::PassList& passes, const Tree& tree, const Buffers& b) const
+    {
         struct Reduce {
             Tree tree;
             uint height;
@@ -129,14 +161,21 @@ private:
     {
         SceneGpu& scene = frame.resources;
         passes.fill(b.work, 0, "no work");
+        passes.compute({.name = "cull",
+            .program = &program("cull", frame.counters),
+            .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(blocks_), gpu::Use::load},
+                {passes.import(boxes_), gpu::Use::load}, {b.work, gpu::Use::update}, {b.kept, gpu::Use::store}, counting(frame, b)},
+            .constants = c,
+            .threads = {c.blocks}});
+        find_groups(passes, b, WorkNumber::blocks, ~0u, true);
         passes.compute({.name = "setup",
             .program = &program("setup", frame.counters),
             .bindings = {{b.words, gpu::Use::load}, {b.tiles, gpu::Use::load}, {passes.import(scene.instances()), gpu::Use::load},
                 {passes.import(scene.indices()), gpu::Use::load}, {passes.import(scene.positions()), gpu::Use::load},
                 {passes.import(scene.materials()), gpu::Use::load}, {passes.import(blocks_), gpu::Use::load}, {b.volumes, gpu::Use::store},
-                {b.work, gpu::Use::update}, counting(frame, b)},
+                {b.work, gpu::Use::update}, {b.kept, gpu::Use::load}, counting(frame, b)},
             .constants = c,
-            .threads = {c.blocks * CASTER_BLOCK}});
+            .indirect = b.groups});
         if (clear) {
             traverse_clear(passes, frame, c.tree, params, b);
             return;
@@ -152,12 +191,16 @@ private:
         solid_end_ = solid, opaque_end_ = opaque;
         block_count_ = uint32_t(blocks.size());
         blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
-        if (!blocks.empty()) device_.upload(blocks_, std::as_bytes(std::span(blocks)));
+        boxes_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBox), 0, gpu::Memory::device, "caster boxes"});
+        if (blocks.empty()) return;
+        device_.upload(blocks_, std::as_bytes(std::span(blocks)));
+        const std::vector<CasterBox> boxes = parts::caster_boxes(scene, blocks);
+        device_.upload(boxes_, std::as_bytes(std::span(boxes)));
     }
 
-    uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes : 0; }
+    uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes + boxes_.desc().bytes : 0; }
 
-    gpu::Buffer blocks_; ///< of the scene's triangles, made on first use
+    gpu::Buffer blocks_, boxes_; ///< of the scene's triangles, made on first use
     uint32_t block_count_ = 0, solid_end_ = 0, opaque_end_ = 0; ///< CasterRanges
     gpu::Device& device_;
 };

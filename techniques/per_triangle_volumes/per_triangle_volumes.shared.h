@@ -9,6 +9,9 @@ TECHNIQUE_BEGIN(per_triangle_volumes)
 struct Params {
     int cull DEFAULT(0); ///< CULL_*
     int team DEFAULT(0); ///< index into ballot, shared
+    int queue DEFAULT(1048576);
+    int blockers DEFAULT(0);
+    float blocker_size DEFAULT(0.001f);
     int mode DEFAULT(0); ///< MODE_*
     int texture_level DEFAULT(0); ///< LEVEL_*
     int samples DEFAULT(0); ///< SAMPLES_*
@@ -33,6 +36,10 @@ struct Volume {
 #define PHASE_EXPAND 0
 #define PHASE_DRAIN 1
 
+#define WHICH_ALL 0
+#define WHICH_LARGE 1
+#define WHICH_OTHERS 2
+
 #define CULL_NONE 0
 #define CULL_FRONT 1
 #define CULL_BACK 2
@@ -56,6 +63,7 @@ struct Counts {
     uint triangles, triangles_culled; ///< looked at; of them those that reach no sample
     uint tile_tests, sample_tests;
     uint queue_entries; ///< nodes at which the second pass goes on
+    uint blocks_culled;
 };
 
 struct TreeConstants {
@@ -73,7 +81,8 @@ struct VolumeConstants {
     vec4 eye_point; ///< homogeneous, relative to `eye`: itself, or where an orthographic view looks
     float ray; ///< longest of the rays through the picture, in metres at unit depth
     uint first_block, blocks; ///< casters of this round
-    uint room; ///< for volumes
+    uint which; ///< WHICH_*
+    float large; ///< how much of the light's view makes a triangle a large one
 };
 
 struct ClearConstants {

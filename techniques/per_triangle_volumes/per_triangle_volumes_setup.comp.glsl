@@ -19,8 +19,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer Positions { vec3 positions[
 layout(set = 0, binding = 5, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Blocks { CasterBlock blocks[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Volumes { Volume volumes[]; };
-layout(set = 0, binding = 8, scalar) buffer Work { uint made, listed; };
-layout(set = 0, binding = 9, scalar) buffer Counting { Counts counts; };
+layout(set = 0, binding = 8, scalar) buffer Work { uint made, listed, kept; };
+layout(set = 0, binding = 9, scalar) readonly buffer Kept { uint kept_blocks[]; };
+layout(set = 0, binding = 10, scalar) buffer Counting { Counts counts; };
 layout(set = 1, binding = 0, scalar) uniform Constants { VolumeConstants c; };
 
 #include "techniques/per_triangle_volumes/counting.glsl"
@@ -37,6 +38,13 @@ vec3 corner_of(Instance i, uint triangle, uint k)
 bool is_culled(Instance i, bool front)
 {
     return c.cull != CULL_NONE && (materials[i.material].flags & MATERIAL_DOUBLE_SIDED) == 0 && front == (c.cull == CULL_FRONT);
+}
+
+// Large ones are likely to darken much: its part of what the light sees, or of the scene's breadth for parallel light.
+bool is_large(Sorted s, float height)
+{
+    const float far = length(from_point_to_light(s.a));
+    return abs(height) > c.large * far * far * far;
 }
 
 bool append(Volume v)
@@ -60,6 +68,7 @@ bool append_triangle(CasterBlock block, uint triangle)
     if (height == 0.0 || isnan(height)) return false;
     const bool even = s.from == uvec3(0, 1, 2) || s.from == uvec3(1, 2, 0) || s.from == uvec3(2, 0, 1);
     if (is_culled(i, (height > 0.0) == even)) return false;
+    if (c.which != WHICH_ALL && is_large(s, height) != (c.which == WHICH_LARGE)) return false;
     // Where rounding may have turned the sign both are tried for the sides: the one that is wrong holds nothing but what rounding left
     // between planes.
     const bool doubtful = abs(height) <= doubt;
@@ -76,9 +85,7 @@ bool append_triangle(CasterBlock block, uint triangle)
 
 void main()
 {
-    const uint block_index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (block_index >= c.blocks) return;
-    const CasterBlock block = blocks[c.first_block + block_index];
+    const CasterBlock block = blocks[kept_blocks[gl_WorkGroupID.x]];
     const uint triangle = block.first + gl_LocalInvocationIndex;
     if (gl_LocalInvocationIndex >= block.count) return;
     const bool casts = append_triangle(block, triangle);

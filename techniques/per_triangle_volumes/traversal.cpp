@@ -2,6 +2,7 @@
 #include "techniques/per_triangle_volumes/traversal.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace gnomon::techniques::per_triangle_volumes {
@@ -9,9 +10,6 @@ namespace gnomon::techniques::per_triangle_volumes {
 using namespace shadow;
 
 namespace {
-
-/// Room in the list between the two passes. What does not fit is done in the first.
-constexpr uint32_t most_entries = 1u << 20;
 
 const gpu::Program& program(gpu::Device& device, const char* name, std::span<const gpu::SpecConstant> constants = {})
 {
@@ -21,14 +19,14 @@ const gpu::Program& program(gpu::Device& device, const char* name, std::span<con
 struct GroupConstants {
     uint which; ///< of the numbers in Work
     uint most;
-    uint teams_are_groups;
+    uint one_a_group;
 };
 
 } // namespace
 
 gpu::Binding counting(const Frame& frame, const TreeBuffers& b) { return {b.counts, frame.counters ? gpu::Use::update : gpu::Use::store}; }
 
-TreeBuffers make_buffers(gpu::PassList& passes, const Frame& frame, const Tree& tree, uint32_t volumes)
+TreeBuffers make_buffers(gpu::PassList& passes, const Frame& frame, const Tree& tree, uint32_t volumes, uint32_t entries)
 {
     const auto transient = [&](uint64_t bytes, const char* name, VkBufferUsageFlags usage = 0) {
         return passes.transient(gpu::BufferDesc{bytes, usage, gpu::Memory::device, name});
@@ -37,26 +35,35 @@ TreeBuffers make_buffers(gpu::PassList& passes, const Frame& frame, const Tree& 
     b.words = transient(4 * uint64_t(tree.nodes), "words");
     b.tiles = transient(4 * (32 * uint64_t(tree.nodes - tree.first[2]) + 1), "tiles");
     b.volumes = transient(volumes * sizeof(Volume), "volumes");
-    b.work = transient(8, "work");
-    b.room = std::min(most_entries, 64 * volumes);
+    b.work = transient(12, "work");
+    b.room = std::max(entries, 1u);
     b.entries = transient(b.room * sizeof(uvec2), "entries");
+    b.kept = transient(4 * uint64_t(volumes), "kept blocks");
     b.groups = transient(sizeof(VkDispatchIndirectCommand), "groups", VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     b.counts = transient(sizeof(Counts), "counts");
     if (!frame.counters) return b;
     passes.fill(b.counts, 0, "no counts");
-    constexpr const char* names[] = {"triangles", "triangles_culled", "tile_tests", "sample_tests", "queue_entries"};
+    constexpr const char* names[] = {"triangles", "triangles_culled", "tile_tests", "sample_tests", "queue_entries", "blocks_culled"};
     for (uint32_t i = 0; i < std::size(names); ++i) frame.counters->push_back({names[i], b.counts, 4 * i});
     return b;
+}
+
+void find_groups(gpu::PassList& passes, const TreeBuffers& b, WorkNumber number, uint32_t most, bool one_a_group)
+{
+    passes.compute({.name = "groups",
+        .program = &program(passes.device(), "groups"),
+        .bindings = {{b.work, gpu::Use::load}, {b.groups, gpu::Use::store}},
+        .constants = GroupConstants{uint(number), most, uint(one_a_group)}});
 }
 
 void traverse(gpu::PassList& passes, const Frame& frame, const TreeBuffers& b, const Traversal& t)
 {
     SceneGpu& scene = frame.resources;
     for (const uint32_t phase : {PHASE_EXPAND, PHASE_DRAIN}) {
-        passes.compute({.name = "groups",
-            .program = &program(passes.device(), "groups"),
-            .bindings = {{b.work, gpu::Use::load}, {b.groups, gpu::Use::store}},
-            .constants = GroupConstants{phase, phase == PHASE_EXPAND ? ~0u : b.room, uint(t.teams_are_groups)}});
+        if (phase == PHASE_EXPAND)
+            find_groups(passes, b, WorkNumber::volumes, ~0u, t.teams_are_groups);
+        else
+            find_groups(passes, b, WorkNumber::entries, b.room, t.teams_are_groups);
         std::vector<gpu::SpecConstant> specialised = t.specialised;
         specialised.push_back({1, uint32_t(frame.counters != nullptr)});
         specialised.push_back({3, phase});

@@ -11,12 +11,16 @@ namespace gnomon::techniques::per_triangle_volumes {
 
 /// What one frame's passes share.
 struct TreeBuffers {
-    gpu::BufferId words, tiles, volumes, work, entries, groups, counts;
+    gpu::BufferId words, tiles, volumes, work, entries, kept, groups, counts;
     std::array<gpu::BufferId, 3> sums; ///< of the modes that add up: u32 for each node's child
     uint32_t room; ///< for entries
 };
-/// For so many volumes at a time.
-TreeBuffers make_buffers(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, uint32_t volumes);
+/// For so many volumes at a time, and a list of so many entries.
+TreeBuffers make_buffers(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, uint32_t volumes, uint32_t entries);
+
+/// b.groups for a pass with a team, or a group, for each of a number in Work, of which no more than `most` count.
+enum class WorkNumber : uint8_t { volumes, entries, blocks };
+void find_groups(gpu::PassList&, const TreeBuffers& b, WorkNumber, uint32_t most, bool one_a_group);
 
 /// A shader that includes traverse.glsl.
 struct Traversal {

@@ -11,7 +11,7 @@ layout(set = 0, binding = 1) uniform usampler2D primitive_image;
 layout(set = 0, binding = 2, scalar) buffer Words { uint words[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Volumes { uint volume_words[]; }; // VOLUME_WORDS a volume
-layout(set = 0, binding = 5, scalar) buffer Work { uint made, listed; }; // volumes, entries
+layout(set = 0, binding = 5, scalar) buffer Work { uint made, listed, kept; }; // volumes, entries, blocks of triangles
 layout(set = 0, binding = 6, scalar) buffer Entries { uvec2 entries[]; }; // volume << 1 | inside, node
 layout(set = 0, binding = 7, scalar) readonly buffer Instances { Instance instances[]; };
 layout(set = 0, binding = 8, scalar) readonly buffer Indices { uint indices[]; };
