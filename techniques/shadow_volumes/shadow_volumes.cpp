@@ -23,8 +23,11 @@ void describe(Params& p, Fields& fields)
         "by "
         "a test of each triangle.");
     fields.choice("counter", p.counter, {"auto", "stencil", "blend"},
-        "What counts: a stencil of 8 bits, only where fewer than 256 triangles cast; additions to a float image; or the faster one that is "
-        "safe.");
+        "What counts: a stencil of 8 bits, only where fewer than 256 triangles cast; additions to a float image; auto is the latter, "
+        "which takes no longer.");
+    fields.choice("order", p.order, {"planes", "depth"},
+        "How a face and a receiver are put in order: by the face's plane, exactly; or by the depth test, which is faster and puts single "
+        "pixels wrong.");
     fields.flag("log_alpha", p.log_alpha,
         "Transmittance in place of visibility: semitransparent casters let light through by the colour and alpha of their material.");
     fields.flag("scissor", p.scissor, "A spot's volumes are drawn only where its cone is seen; the picture is the same.");
@@ -58,6 +61,7 @@ class ShadowVolumes final : public TechniqueWith<Params> {
         const parts::VolumeSettings settings{.edges = parts::VolumeEdges(params.edges),
             .count = parts::VolumeCount(params.count),
             .counter = parts::VolumeCounter(params.counter),
+            .order = parts::VolumeOrder(params.order),
             .transmittance = params.log_alpha != 0,
             .scissor = params.scissor != 0,
             .slot_bands = culled ? culled->slots : gpu::BufferId{},

@@ -9,6 +9,7 @@ struct Params {
     int edges DEFAULT(2); ///< parts::VolumeEdges
     int count DEFAULT(1); ///< parts::VolumeCount
     int counter DEFAULT(0); ///< parts::VolumeCounter
+    int order DEFAULT(0); ///< parts::VolumeOrder
     int log_alpha DEFAULT(0); ///< 0 or 1
     int scissor DEFAULT(1); ///< 0 or 1
     int culling DEFAULT(0); ///< none, casters, max, clamp, all

@@ -276,6 +276,24 @@ TEST_F(ShadowVolumes, TheScissorLeavesOutWhatChangesNothing)
     EXPECT_GT(mean(cut.values), 0.0);
 }
 
+TEST_F(ShadowVolumes, DepthTestsPutNoMoreThanSinglePixelsWrong)
+{
+    size_t off = 0;
+    for (uint32_t seed = 0; seed < 12; ++seed) {
+        const scene::Scene s = soup(seed, 120);
+        for (const double count : {zfail, pp_zp}) {
+            const Drawn by_depth = draw_counted(s, oblique, {96, 64}, lamp, {{"count", count}, {"order", 1}});
+            const Drawn by_planes = draw_counted(s, oblique, {96, 64}, lamp, {{"count", count}});
+            EXPECT_LT(by_depth.counters.at("fragments"), by_planes.counters.at("fragments"));
+            size_t here = 0;
+            for (size_t i = 0; i < by_depth.values.size(); ++i) here += by_depth.values[i] != by_planes.values[i];
+            EXPECT_LT(here, 6u) << seed;
+            off += here;
+        }
+    }
+    EXPECT_GT(off, 0u) << "or planes are not needed";
+}
+
 TEST_F(ShadowVolumes, WorkIsCounted)
 {
     // a floor and a sheet, of two triangles and four borders each

@@ -33,6 +33,8 @@ void clip_face(vec4 p, uint slot)
 }
 #endif
 
+layout(constant_id = 2) const bool BY_DEPTH = false;
+
 const vec4 nowhere = vec4(2.0, 2.0, 0.0, 1.0);
 
 // A point, or where the light's ray through it ends.
@@ -40,7 +42,7 @@ vec4 clip_of(vec3 point, bool infinite, uint slot)
 {
     precise const vec4 p = infinite ? vec4(-light_from(c.light, point), 0.0) : vec4(point, 1.0);
     precise vec4 clip = c.view.clip_from_world * p;
-    clip.z = 0.0; // neither near nor far plane cuts it; what lies behind the eye is cut all the same
+    if (!BY_DEPTH) clip.z = 0.0; // neither near nor far plane cuts it; what lies behind the eye is cut all the same
 #ifdef CLIPPED
     clip_face(p, slot);
 #endif

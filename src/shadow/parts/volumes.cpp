@@ -41,7 +41,7 @@ VkStencilOpState counting(VkStencilOp op) { return {VK_STENCIL_OP_KEEP, op, VK_S
 bool takes_stencil(const VolumeSettings& s, const VolumeCasters& casters)
 {
     const bool can = !s.transmittance && (s.count == VolumeCount::zpass || s.count == VolumeCount::zfail) && casters.triangles < 256;
-    return can && s.counter == VolumeCounter::stencil;
+    return can && s.counter == VolumeCounter::stencil && s.order == VolumeOrder::planes;
 }
 
 class Volumes {
@@ -85,7 +85,7 @@ public:
             : settings_.transmittance    ? VK_FORMAT_R32G32B32A32_SFLOAT
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
-        if (settings_.decided && !stencil_) undecided_ = draw_undecided();
+        if (settings_.decided && !stencil_ && settings_.order == VolumeOrder::planes) undecided_ = draw_undecided();
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
@@ -240,20 +240,24 @@ private:
 
     void draw_faces(const VolumeCounts& out, gpu::Load load)
     {
-        const gpu::SpecConstant modes[] = {{0, coloured()}, {1, counted_}};
+        const bool by_depth = settings_.order == VolumeOrder::depth, zfail = settings_.count == VolumeCount::zfail;
+        const gpu::SpecConstant modes[] = {{0, coloured()}, {1, counted_}, {2, by_depth ? 1u : 0u}};
         const bool clipped = settings_.count == VolumeCount::zp_plus || task_.bands.count > 0;
         gpu::RasterPass pass{.name = stencil_ ? "volumes (stencil)" : "volumes",
             .program
             = &device_.raster_program(clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert",
-                undecided_ ? "src/shadow/parts/volume_faces_open.frag" : "src/shadow/parts/volume_faces.frag", modes),
+                by_depth         ? "src/shadow/parts/volume_faces_depth.frag"
+                    : undecided_ ? "src/shadow/parts/volume_faces_open.frag"
+                                 : "src/shadow/parts/volume_faces.frag",
+                modes),
             .bindings
             = {{quads_, Use::load}, {caps_, Use::load}, {out.receivers, Use::sample}, {work_, Use::update}, {weights_, Use::load}},
             .constants = task_,
+            .depth_clamp = by_depth,
             .buffers = {{draws_, Use::indirect}}};
         if (clipped) pass.bindings.push_back({slot_bands(), Use::load});
         if (stencil_) {
             // beyond the receiver, what is left counts
-            const bool zfail = settings_.count == VolumeCount::zfail;
             const VkStencilOpState up = counting(VK_STENCIL_OP_INCREMENT_AND_WRAP), down = counting(VK_STENCIL_OP_DECREMENT_AND_WRAP);
             pass.depth = gpu::DepthTarget{.image = out.counts,
                 .load = load,
@@ -276,6 +280,12 @@ private:
                     .back = is_one};
             }
         }
+        // what is level with the receiver, as its own triangle, lies behind it
+        if (by_depth)
+            pass.depth = gpu::DepthTarget{.image = frame_.gbuffer.depth,
+                .load = gpu::Load::keep,
+                .write = false,
+                .compare = zfail ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_GREATER};
         pass.draw = [draws = draws_, area = area()](gpu::Encoder& encoder) {
             encoder.scissor(area.x, area.y, area.width, area.height);
             for (uint32_t i = 0; i < VOLUME_DRAWS; ++i)

@@ -26,9 +26,15 @@ enum class VolumeCount : int {
     pp_zp ///< at the eye, whose own count is found by a test of each triangle
 };
 
+/// How a face and a receiver are put in order along the eye's ray.
+enum class VolumeOrder : int {
+    planes, ///< by the side of the face's plane on which the receiver lies: exact
+    depth ///< by the depth test, which leaves out what it fails without shading it; interpolated depth puts single pixels wrong
+};
+
 /// What counts.
 enum class VolumeCounter : int {
-    automatic, ///< the faster one that is safe
+    automatic, ///< blend: as fast, and without the stencil's limit
     stencil, ///< 8 bits, of which 256 overlapping volumes would be read as none: taken for scenes of fewer triangles alone
     blend ///< additions to a float image, exact to 2^24
 };
@@ -37,6 +43,7 @@ struct VolumeSettings {
     VolumeEdges edges = VolumeEdges::any;
     VolumeCount count = VolumeCount::zfail;
     VolumeCounter counter = VolumeCounter::automatic;
+    VolumeOrder order = VolumeOrder::planes; ///< by depth it is the blending that counts
     bool transmittance = false; ///< adds up logarithms of what casters let through, in each colour (Kim et al. 2008)
     bool scissor = true; ///< a spot's volumes only where its cone is seen
     gpu::BufferId slot_bands{}; ///< parts/volume_culling.h: where volumes need be drawn; counts of zfail only
