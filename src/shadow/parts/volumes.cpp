@@ -85,7 +85,7 @@ public:
             : settings_.transmittance    ? VK_FORMAT_R32G32B32A32_SFLOAT
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
-        if (settings_.decided && !stencil_) undecided_ = draw_undecided();
+        if (settings_.decided && !stencil_ && settings_.order == VolumeOrder::planes) undecided_ = draw_undecided();
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
