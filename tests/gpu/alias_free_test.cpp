@@ -151,7 +151,7 @@ TEST_F(AliasFree, PositionsWithinAPixelAreAsRaysFindThem)
                 const scene::Light light = scene::parse_light(text, {}, s.bounds());
                 const HardTruth truth(s, light);
                 const scene::View view = scene::make_view(cameras[k], size, s.bounds());
-                const std::vector<float> seen = primitives(s, view);
+                const std::vector<float> seen = surface(s, view).primitive;
                 const std::vector<float> got = draw(s, cameras[k], size, text, {{"samples", samples == 8 ? eight : thirty_two}});
                 size_t off = 0, partly = 0, unknown = 0;
                 for (size_t i = 0; i < got.size(); ++i) {

@@ -42,16 +42,20 @@ protected:
         out.resize(size_t(size.area()));
         return out;
     }
-    /// The primitive of each pixel.
-    static std::vector<float> primitives(const scene::Scene& s, const scene::View& view)
+    /// Of each pixel, as drawn.
+    struct Surface {
+        std::vector<float> primitive, depth;
+    };
+    static Surface surface(const scene::Scene& s, const scene::View& view)
     {
         shadow::SceneGpu scene(device(), s);
-        gpu::Image out = image("primitive", VK_FORMAT_R32_UINT, view.size);
+        gpu::Image primitive = image("primitive", VK_FORMAT_R32_UINT, view.size), depth = image("depth", VK_FORMAT_D32_SFLOAT, view.size);
         gpu::PassList passes(device());
         const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
-        passes.copy(g.primitive, passes.import(out));
+        passes.copy(g.primitive, passes.import(primitive));
+        passes.copy(g.depth, passes.import(depth));
         device().submit(std::move(passes));
-        return device().read_back(out).values;
+        return {device().read_back(primitive).values, device().read_back(depth).values};
     }
 
     /// The very point of a triangle that a pixel shows.
@@ -59,17 +63,20 @@ protected:
         size_t own = SIZE_MAX; ///< its triangle; SIZE_MAX = background
         dvec3 p{0}, n{0}; ///< n: unit, on the eye's side
         double facing = 0; ///< cosine to the eye
+        float depth = 0; ///< as drawn
         double to_edge = 0; ///< metres to the triangle's nearest edge
     };
     static std::vector<Seen> receivers(const HardTruth& truth, const scene::Scene& s, const scene::Camera& camera, gpu::Size size)
     {
         const scene::View view = scene::make_view(camera, size, s.bounds());
-        const std::vector<float> ids = primitives(s, view);
+        const Surface drawn = surface(s, view);
+        const std::vector<float>& ids = drawn.primitive;
         std::vector<Seen> out(ids.size());
         for (size_t i = 0; i < ids.size(); ++i) {
             if (ids[i] >= 4294967040.0f) continue;
             Seen& seen = out[i];
             seen.own = size_t(ids[i]);
+            seen.depth = drawn.depth[i];
             const Triangle& t = truth.triangles()[seen.own];
             const scene::Ray ray = scene::view_ray(view, vec2(float(i % size_t(size.width)) + 0.5f, float(i / size_t(size.width)) + 0.5f));
             const dvec3 along(ray.direction), n = glm::normalize(HardTruth::normal(t));

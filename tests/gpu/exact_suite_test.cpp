@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The suite of exact techniques (exact_suite.h); each technique's own test file says with which parameters it takes it.
 #include "exact_suite.h"
+#include "naive_containment.h"
 
 #include <limits>
 
@@ -19,6 +20,35 @@ TEST_P(ExactSoups, HaveNoWrongPixel)
         const uint32_t seed = GetParam().first_soup + k;
         SCOPED_TRACE(fmt::format("soup {}", seed));
         expect_right(GetParam(), soup(seed, 40 + int(seed % 3) * 60), seed % 7 == 3 ? plan : oblique, {64, 48}, lights[seed % 5], 20, 20);
+    }
+}
+
+/// With the point from depth, a quarter of HardTruth's margin is left to rounding and to the techniques' offsets.
+TEST_P(ExactSoups, AgreeWithContainmentInEveryVolume)
+{
+    constexpr double band = 1e-4;
+    const gpu::Size size{64, 48};
+    for (const uint32_t seed : {201u, 202u, 203u, 204u, 205u, 206u}) {
+        const scene::Scene s = soup(seed, 120);
+        const std::string text = seed % 2 ? "sun,elevation=40,azimuth=70,angle=0" : "point,position=0.4/2.6/0.8,radius=0";
+        const HardTruth truth(s, scene::parse_light(text, {}, s.bounds()));
+        const NaiveContainment oracle(truth, scene::make_view(oblique, size, s.bounds()));
+        const std::vector<Seen> seen = receivers(truth, s, oblique, size);
+        const std::vector<float> got = draw(GetParam(), s, oblique, size, text);
+        size_t wrong = 0, dark = 0, lit = 0;
+        for (size_t i = 0; i < got.size(); ++i) {
+            if (seen[i].own == SIZE_MAX) continue;
+            const double facing = glm::dot(seen[i].n, glm::normalize(truth.to_light(seen[i].p)));
+            const double inside = facing < 0 ? 1 : oracle.depth_inside(oracle.point(i, seen[i].depth), seen[i].own);
+            if (std::abs(facing) < 1e-3 || std::abs(inside) < band) continue;
+            wrong += got[i] != (inside > 0 ? 0.0f : 1.0f);
+            ++(inside > 0 ? dark : lit);
+        }
+        EXPECT_EQ(wrong, 0u) << seed;
+        EXPECT_GT(dark, 100u);
+        EXPECT_GT(lit, 200u);
+        EXPECT_GT(
+            double(dark + lit), 0.98 * double(std::count_if(seen.begin(), seen.end(), [](const Seen& p) { return p.own != SIZE_MAX; })));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -21,8 +22,8 @@ enum class Verdict { dark, lit, unknown };
 
 class HardTruth {
 public:
-    HardTruth(const scene::Scene& s, const scene::Light& light, double scale = 1)
-        : light_(light)
+    HardTruth(const scene::Scene& s, scene::Light light, double scale = 1)
+        : light_(std::move(light))
         , margin_(4e-4 * scale)
         , in_plane_(1e-9 * scale)
     {
@@ -98,7 +99,7 @@ private:
         return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < in_plane_ * glm::length(n);
     }
 
-    const scene::Light& light_;
+    scene::Light light_;
     double margin_, in_plane_; ///< metres
     std::vector<Triangle> triangles_;
 };

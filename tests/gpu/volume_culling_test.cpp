@@ -59,7 +59,8 @@ protected:
         for (size_t i = 0; i < s.instances.size(); ++i)
             instance_of.insert(instance_of.end(), s.meshes[size_t(s.instances[i].mesh)].indices.size() / 3, i);
         Loss loss;
-        for (const auto& [own, p, n, facing, to_edge] : receivers(truth, s, camera, picture)) {
+        for (const Seen& seen : receivers(truth, s, camera, picture)) {
+            const auto [own, p, n, facing] = std::tuple(seen.own, seen.p, seen.n, seen.facing);
             if (own == SIZE_MAX || facing < 0.02) continue;
             if (glm::dot(n, glm::normalize(truth.to_light(p))) < 1e-3 || !scene::reaches(light, vec3(p))) continue;
             bool dark = false, kept = false, all_kept = true;

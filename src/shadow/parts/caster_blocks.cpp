@@ -18,4 +18,25 @@ std::vector<shaders::CasterBlock> caster_blocks(const SceneGpu& scene)
     return blocks;
 }
 
+std::vector<shaders::CasterBox> caster_boxes(const SceneGpu& resources, std::span<const shaders::CasterBlock> blocks)
+{
+    const scene::Scene& scene = resources.scene();
+    const std::vector<SceneGpu::Drawable> drawables = resources.drawables(); // by slot
+    std::vector<std::vector<Bounds>> meshes(scene.meshes.size());
+    std::vector<shaders::CasterBox> boxes;
+    for (const shaders::CasterBlock& block : blocks) {
+        const SceneGpu::Drawable& d = drawables[block.slot];
+        const scene::Mesh& mesh = scene.meshes[d.mesh];
+        std::vector<Bounds>& own = meshes[d.mesh];
+        if (own.empty()) {
+            own.resize((mesh.triangle_count() + CASTER_BLOCK - 1) / CASTER_BLOCK);
+            for (size_t i = 0; i < mesh.indices.size(); ++i) own[i / (3 * CASTER_BLOCK)].add(mesh.positions[mesh.indices[i]]);
+        }
+        const Bounds b = transformed(own[block.first / CASTER_BLOCK], scene.instances[d.instance].world_from_object);
+        const vec3 furthest = glm::max(glm::abs(b.min), glm::abs(b.max));
+        boxes.push_back({b.centre(), 0.5f * (b.max - b.min) + 1e-6f * furthest});
+    }
+    return boxes;
+}
+
 } // namespace gnomon::shadow::parts

@@ -14,6 +14,11 @@ struct CasterBlock {
     uint masked; ///< 0 or 1
 };
 
+/// A box around them in the world.
+struct CasterBox {
+    vec3 centre, half_size;
+};
+
 SHARED_END
 
 #endif

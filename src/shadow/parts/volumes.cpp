@@ -74,7 +74,7 @@ public:
             : settings_.transmittance    ? VK_FORMAT_R32G32B32A32_SFLOAT
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
-        if (settings_.decided && !stencil_) undecided_ = draw_undecided();
+        if (settings_.decided && !stencil_ && settings_.order == VolumeOrder::planes) undecided_ = draw_undecided();
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
@@ -229,7 +229,7 @@ private:
 
     void draw_faces(const VolumeCounts& out, gpu::Load load)
     {
-        const bool by_depth = settings_.order == VolumeOrder::depth, zfail = settings_.count == VolumeCount::zfail;
+        const bool by_depth = settings_.order == VolumeOrder::depth && !undecided_, zfail = settings_.count == VolumeCount::zfail;
         const gpu::SpecConstant modes[] = {{0, coloured()}, {1, counted_}, {2, by_depth ? 1u : 0u}};
         const bool clipped = settings_.count == VolumeCount::zp_plus || task_.bands.count > 0;
         const char* faces = clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert";
