@@ -59,8 +59,10 @@ protected:
         for (size_t i = 0; i < s.instances.size(); ++i)
             instance_of.insert(instance_of.end(), s.meshes[size_t(s.instances[i].mesh)].indices.size() / 3, i);
         Loss loss;
-        for (const auto& [own, p, n, facing, to_edge] : receivers(truth, s, camera, picture)) {
-            if (own == SIZE_MAX || facing < 0.02) continue;
+        for (const Seen& seen : receivers(truth, s, camera, picture)) {
+            if (seen.own == SIZE_MAX || seen.facing < 0.02) continue;
+            const size_t own = seen.own;
+            const dvec3 p = seen.p, n = seen.n;
             if (glm::dot(n, glm::normalize(truth.to_light(p))) < 1e-3 || !scene::reaches(light, vec3(p))) continue;
             bool dark = false, kept = false, all_kept = true;
             for (size_t t = 0; t < truth.triangles().size(); ++t) {
