@@ -206,6 +206,11 @@ TEST_F(VolumeCullingTest, BandsFollowTheLight)
     EXPECT_EQ(shadow::parts::volume_bands(tiny, sun, 16).count, 1u);
     EXPECT_EQ(shadow::parts::volume_bands(view, sun, 1000).count, 32u);
     EXPECT_EQ(cull(s, tiny, sun, all).slots.size(), 1u);
+    scene::Scene empty;
+    empty.materials.emplace_back();
+    const scene::Camera ahead{.eye = {0, 0, 3}, .target = {0, 0, 0}};
+    for (const double way : {0., 1., 4.})
+        EXPECT_EQ(mean(TechniqueTest::draw(technique_shadow_volumes, empty, ahead, picture, "sun,elevation=40", {{"culling", way}})), 1);
 }
 
 /// none, casters, max, clamp, all
