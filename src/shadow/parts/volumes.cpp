@@ -2,6 +2,7 @@
 #include "shadow/parts/volumes.h"
 
 #include "shadow/light_constants.h"
+#include "shadow/parts/volume_states.h"
 
 #include <algorithm>
 
@@ -24,18 +25,6 @@ gpu::BufferId buffer(gpu::PassList& passes, uint64_t bytes, const char* name, Vk
 {
     return passes.transient(gpu::BufferDesc{std::max<uint64_t>(bytes, 16), usage, gpu::Memory::device, name});
 }
-
-VkPipelineColorBlendAttachmentState adding()
-{
-    VkPipelineColorBlendAttachmentState add{};
-    add.blendEnable = VK_TRUE;
-    add.colorWriteMask = 0xf;
-    add.srcColorBlendFactor = add.dstColorBlendFactor = add.srcAlphaBlendFactor = add.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    add.colorBlendOp = add.alphaBlendOp = VK_BLEND_OP_ADD;
-    return add;
-}
-
-VkStencilOpState counting(VkStencilOp op) { return {VK_STENCIL_OP_KEEP, op, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, 0xff, 0xff, 0}; }
 
 /// A count is at most the number of casting triangles, whose volumes each count once.
 bool takes_stencil(const VolumeSettings& s, const VolumeCasters& casters)
@@ -86,6 +75,9 @@ public:
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
         if (settings_.decided && !stencil_ && settings_.order == VolumeOrder::planes) undecided_ = draw_undecided();
+        // scenes may have no caster
+        if (casters_.edge_block_count == 0) passes_.fill(quads_, 0, "no quads");
+        if (casters_.triangle_block_count == 0) passes_.fill(caps_, 0, "no caps");
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
@@ -204,7 +196,7 @@ private:
             .program = &device_.raster_program("src/shadow/parts/volume_near.vert", "src/shadow/parts/volume_near.frag", modes),
             .bindings = {{caps_, Use::load}, {weights_, Use::load}},
             .constants = task_,
-            .colors = {{.image = out.counts, .load = load, .blend = adding()}},
+            .colors = {{.image = out.counts, .load = load, .blend = volume_adding()}},
             .buffers = {{draws_, Use::indirect}},
             .draw = [draws = draws_](gpu::Encoder& encoder) {
                 constexpr uint32_t one = sizeof(VkDrawIndirectCommand);
@@ -240,52 +232,28 @@ private:
 
     void draw_faces(const VolumeCounts& out, gpu::Load load)
     {
-        const bool by_depth = settings_.order == VolumeOrder::depth, zfail = settings_.count == VolumeCount::zfail;
+        const bool by_depth = settings_.order == VolumeOrder::depth && !undecided_, zfail = settings_.count == VolumeCount::zfail;
         const gpu::SpecConstant modes[] = {{0, coloured()}, {1, counted_}, {2, by_depth ? 1u : 0u}};
         const bool clipped = settings_.count == VolumeCount::zp_plus || task_.bands.count > 0;
+        const char* faces = clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert";
+        const char* change = by_depth ? "src/shadow/parts/volume_faces_depth.frag"
+            : undecided_              ? "src/shadow/parts/volume_faces_open.frag"
+                                      : "src/shadow/parts/volume_faces.frag";
         gpu::RasterPass pass{.name = stencil_ ? "volumes (stencil)" : "volumes",
-            .program
-            = &device_.raster_program(clipped ? "src/shadow/parts/volume_faces_clipped.vert" : "src/shadow/parts/volume_faces.vert",
-                by_depth         ? "src/shadow/parts/volume_faces_depth.frag"
-                    : undecided_ ? "src/shadow/parts/volume_faces_open.frag"
-                                 : "src/shadow/parts/volume_faces.frag",
-                modes),
+            .program = &device_.raster_program(faces, change, modes),
             .bindings
             = {{quads_, Use::load}, {caps_, Use::load}, {out.receivers, Use::sample}, {work_, Use::update}, {weights_, Use::load}},
             .constants = task_,
             .depth_clamp = by_depth,
             .buffers = {{draws_, Use::indirect}}};
         if (clipped) pass.bindings.push_back({slot_bands(), Use::load});
-        if (stencil_) {
-            // beyond the receiver, what is left counts
-            const VkStencilOpState up = counting(VK_STENCIL_OP_INCREMENT_AND_WRAP), down = counting(VK_STENCIL_OP_DECREMENT_AND_WRAP);
-            pass.depth = gpu::DepthTarget{.image = out.counts,
-                .load = load,
-                .write = false,
-                .compare = VK_COMPARE_OP_ALWAYS,
-                .stencil = true,
-                .front = zfail ? down : up,
-                .back = zfail ? up : down};
-        } else {
-            pass.colors = {{.image = out.counts, .load = load, .blend = adding()}};
-            if (undecided_) {
-                const VkStencilOpState is_one{VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_EQUAL, 0xff, 0, 1};
-                pass.depth = gpu::DepthTarget{.image = undecided_,
-                    .load = gpu::Load::keep,
-                    .write = false,
-                    .store = false,
-                    .compare = VK_COMPARE_OP_ALWAYS,
-                    .stencil = true,
-                    .front = is_one,
-                    .back = is_one};
-            }
-        }
-        // what is level with the receiver, as its own triangle, lies behind it
-        if (by_depth)
-            pass.depth = gpu::DepthTarget{.image = frame_.gbuffer.depth,
-                .load = gpu::Load::keep,
-                .write = false,
-                .compare = zfail ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_GREATER};
+        if (!stencil_) pass.colors = {{.image = out.counts, .load = load, .blend = volume_adding()}};
+        if (stencil_)
+            pass.depth = volume_stencil(out.counts, load, zfail);
+        else if (by_depth)
+            pass.depth = volume_depth_test(frame_.gbuffer.depth, zfail);
+        else if (undecided_)
+            pass.depth = volume_where_one(undecided_);
         pass.draw = [draws = draws_, area = area()](gpu::Encoder& encoder) {
             encoder.scissor(area.x, area.y, area.width, area.height);
             for (uint32_t i = 0; i < VOLUME_DRAWS; ++i)
