@@ -31,7 +31,9 @@ shaders::Tree make_tree(const scene::View& view, uvec2 samples_a_pixel)
 {
     shaders::Tree tree{};
     tree.samples = uvec2(view.size.width, view.size.height) * samples_a_pixel;
-    tree.nearer = nearer(view);
+    tree.spread = uvec2(glm::findMSB(samples_a_pixel.x), glm::findMSB(samples_a_pixel.y));
+    // A depth carried on by slopes has the roundings of three.
+    tree.nearer = (tree.spread == uvec2(0) ? 1.0f : 3.0f) * nearer(view);
     tree.step = 1.0f / vec2(tree.samples);
     const auto nodes = [&](uint32_t height) { return ((tree.samples - 1u) >> shaders::tree_shift(height)) + 1u; };
     for (uint32_t height = 1;; ++height) {

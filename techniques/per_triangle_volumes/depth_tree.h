@@ -6,7 +6,8 @@
 
 namespace gnomon::techniques::per_triangle_volumes {
 
-/// Over a view with so many samples a pixel across and down. Throws Error where these are more than any tree takes.
+/// Over a view whose pixels are spread to so many samples across and down, powers of two. Throws Error where these are more than any tree
+/// takes.
 shaders::Tree make_tree(const scene::View&, uvec2 samples_a_pixel = uvec2(1));
 
 } // namespace gnomon::techniques::per_triangle_volumes

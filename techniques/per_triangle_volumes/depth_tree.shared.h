@@ -12,6 +12,7 @@ SHARED_BEGIN(shaders)
 
 struct Tree {
     uvec2 samples; ///< width and height; several samples a pixel are a larger picture
+    uvec2 spread; ///< logarithms of the samples a pixel right and down that share its depth and slopes; else 0
     vec2 step; ///< half of the distance from a sample to the next, in normalised device coordinates
     vec3 nearer; ///< tree.glsl's receiver_depth, by powers of the depth
     uint height; ///< of the root

@@ -2,6 +2,7 @@
 #include "techniques/per_triangle_volumes/modes.h"
 
 #include "base/error.h"
+#include "shadow/light_constants.h"
 #include "shadow/parts/caster_blocks.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ void describe_modes(Params& p, Fields& fields)
     fields.choice("texture_level", p.texture_level, {"footprint", "finest"},
         "Level of detail of textures: that of a pixel's width at the receiver, as the light throws it on the caster, or always the "
         "finest.");
-    fields.choice("samples", p.samples, {"1", "4", "16"}, "Samples of each pixel, every one with a depth of its own; the mean is taken.");
+    fields.choice("samples", p.samples, {"1", "4", "16", "extrapolated"},
+        "Samples of each pixel, of which the mean is taken: up to 16, every one with a depth of its own, or 32 on the plane of the "
+        "triangle "
+        "that the pixel shows.");
 }
 
 Output output_of(std::span<const std::byte> bytes)
@@ -57,12 +61,28 @@ gpu::BufferId sums_or(const TreeBuffers& b, uint32_t channel, gpu::BufferId othe
 
 scene::View finer_view(scene::View view, const Params& p)
 {
-    const auto side = int(samples_per_pixel(p).x);
+    const int side = p.samples == SAMPLES_EXTRAPOLATED ? 1 : 1 << p.samples;
     view.size = {view.size.width * side, view.size.height * side};
     return view;
 }
 
-uvec2 samples_per_pixel(const Params& p) { return uvec2(1u << p.samples); }
+uvec2 samples_log2(const Params& p) { return p.samples == SAMPLES_EXTRAPOLATED ? uvec2(3, 2) : uvec2(uint(p.samples)); }
+
+GBuffer finer_surfaces(gpu::PassList& passes, const Frame& frame, const scene::View& finer, const Params& p)
+{
+    if (p.samples == SAMPLES_ONE) return frame.gbuffer;
+    if (p.samples != SAMPLES_EXTRAPOLATED) return draw_gbuffer(passes, frame.resources, finer, {.material = false});
+    GBuffer g = frame.gbuffer;
+    g.depth = passes.transient(gpu::ImageDesc{VK_FORMAT_R32G32B32A32_SFLOAT, finer.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "slopes"});
+    passes.fullscreen({.name = "slopes",
+        .program
+        = &passes.device().raster_program("shaders/fullscreen.vert", "techniques/per_triangle_volumes/per_triangle_volumes_slopes.frag"),
+        .bindings
+        = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {frame.gbuffer.primitive, gpu::Use::sample}},
+        .constants = view_constants(finer, frame.index),
+        .colors = {{g.depth}}});
+    return g;
+}
 
 void make_sums(gpu::PassList& passes, const Tree& tree, const Params& params, TreeBuffers& b)
 {
@@ -84,7 +104,7 @@ void traverse_clear(gpu::PassList& passes, const Frame& frame, const Tree& tree,
     traverse(passes, frame, b,
         {.shader = "clear",
             .specialised = {{2, uint32_t(params.mode)}},
-            .constants = ClearConstants{tree, frame.index, uint(params.texture_level), 2 * uint(params.samples)},
+            .constants = ClearConstants{tree, frame.index, uint(params.texture_level), samples_log2(params)},
             .bindings = {{none, gpu::Use::update}, {sums_or(b, 1, none), gpu::Use::update}, {sums_or(b, 2, none), gpu::Use::update}}});
 }
 
@@ -100,7 +120,7 @@ void resolve_samples(gpu::PassList& passes, const Frame& frame, const Tree& tree
             "shaders/fullscreen.vert", "techniques/per_triangle_volumes/per_triangle_volumes_resolve_samples.frag", count),
         .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {b.words, gpu::Use::load}, {sums_or(b, 0, b.words), gpu::Use::load},
             {sums_or(b, 1, b.words), gpu::Use::load}, {sums_or(b, 2, b.words), gpu::Use::load}},
-        .constants = Constants{tree, samples_per_pixel(params)},
+        .constants = Constants{tree, uvec2(1) << samples_log2(params)},
         .colors = {{frame.output}}});
 }
 

@@ -29,9 +29,11 @@ void traverse_clear(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, 
 /// Writes the mean of each pixel's samples.
 void resolve_samples(gpu::PassList&, const shadow::Frame&, const shaders::Tree&, const Params&, const TreeBuffers& b);
 
-/// Samples of a pixel, right and down.
-uvec2 samples_per_pixel(const Params&);
-/// The same picture with a pixel for each sample.
+/// Of the samples of a pixel, right and down.
+uvec2 samples_log2(const Params&);
+/// The same picture with a pixel for each sample that has a depth of its own.
 scene::View finer_view(scene::View, const Params&);
+/// And its surfaces: drawn again, or with slopes beside their depths.
+shadow::GBuffer finer_surfaces(gpu::PassList&, const shadow::Frame&, const scene::View& finer, const Params&);
 
 } // namespace gnomon::techniques::per_triangle_volumes

@@ -56,11 +56,10 @@ private:
     void record_with(gpu::PassList& passes, const Frame& drawn, const Params& params) override
     {
         const scene::View view = finer_view(drawn.view, params);
-        const Frame frame{drawn.scene, view, drawn.light, drawn.resources,
-            params.samples == 0 ? drawn.gbuffer : draw_gbuffer(passes, drawn.resources, view, {.material = false}), drawn.output,
+        const Frame frame{drawn.scene, view, drawn.light, drawn.resources, finer_surfaces(passes, drawn, view, params), drawn.output,
             drawn.index, nullptr, drawn.counters};
         if (!blocks_) read_casters(frame.resources);
-        const Tree tree = make_tree(frame.view);
+        const Tree tree = make_tree(frame.view, uvec2(1) << (params.samples == SAMPLES_EXTRAPOLATED ? samples_log2(params) : uvec2(0)));
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
         Buffers b = make_buffers(passes, frame, tree, room, uint32_t(params.queue));
         build_tree(passes, frame, tree, b);
@@ -84,7 +83,7 @@ private:
             if (solid_end_ < block_count_) make_sums(passes, tree, params, b);
             cast_all(solid_end_, block_count_, true);
         }
-        if (params.mode != MODE_BINARY || params.samples != 0) {
+        if (params.mode != MODE_BINARY || params.samples != SAMPLES_ONE) {
             resolve_samples(passes, frame, tree, params, b);
             return;
         }

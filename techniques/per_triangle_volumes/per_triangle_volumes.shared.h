@@ -14,7 +14,7 @@ struct Params {
     float blocker_size DEFAULT(0.001f);
     int mode DEFAULT(0); ///< MODE_*
     int texture_level DEFAULT(0); ///< LEVEL_*
-    int samples DEFAULT(0); ///< of a pixel, the root's logarithm
+    int samples DEFAULT(0); ///< SAMPLES_*
 };
 
 /// What lies behind a triangle as seen from the light, as planes (a, b, c, d) over a sample's (x, y, z, 1) in normalised device
@@ -50,6 +50,11 @@ struct Volume {
 #define MODE_TEXTURED 3
 #define MODE_STOCHASTIC 4
 
+#define SAMPLES_ONE 0
+#define SAMPLES_FOUR 1
+#define SAMPLES_SIXTEEN 2
+#define SAMPLES_EXTRAPOLATED 3
+
 #define LEVEL_FOOTPRINT 0
 #define LEVEL_FINEST 1
 
@@ -84,7 +89,7 @@ struct ClearConstants {
     Tree tree;
     uint frame; ///< the seed of MODE_STOCHASTIC
     uint texture_level; ///< LEVEL_*
-    uint samples_log2; ///< of a pixel
+    uvec2 side_log2; ///< of a pixel's samples right and down
 };
 
 SHARED_END

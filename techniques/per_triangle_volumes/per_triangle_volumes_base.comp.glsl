@@ -29,8 +29,8 @@ void main()
         if (lit) {
             Receiver r;
             float visibility;
-            lit = find_hard_receiver(c.view, c.light, depth_image, normal_image, vec2(at) + 0.5, r, visibility);
-            const float z = receiver_depth(texelFetch(depth_image, ivec2(at), 0).r);
+            lit = find_hard_receiver(c.view, c.light, depth_image, normal_image, vec2(pixel_of(at)) + 0.5, r, visibility);
+            const float z = receiver_depth(depth_on(texelFetch(depth_image, ivec2(pixel_of(at)), 0), at));
             if (lit) depths = vec2(min(depths.x, z), max(depths.y, z));
         }
         done |= uint(!lit) << i;

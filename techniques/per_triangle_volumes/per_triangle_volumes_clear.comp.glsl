@@ -45,12 +45,12 @@ void add(uint word, uint child, uvec3 more)
 // With the transmittance as probability. The samples of a pixel are in as many strata, each in one of its own.
 bool passes_at_random(float transmittance, uint primitive, uvec2 at)
 {
-    const uint side = c.samples_log2 / 2, strata = 1u << c.samples_log2;
-    const uvec2 pixel = at >> side, within = at & ((1u << side) - 1u);
+    const uint bits = c.side_log2.x + c.side_log2.y, strata = 1u << bits;
+    const uvec2 pixel = at >> c.side_log2, within = at & ((uvec2(1) << c.side_log2) - 1u);
     const uint seed = hash3(uvec3(primitive, c.frame, 0x5bd1e995u)).x;
-    const uint stratum = ((within.x | within.y << side) ^ hash3(uvec3(pixel, seed)).x) & (strata - 1u);
+    const uint stratum = ((within.x | within.y << c.side_log2.x) ^ hash3(uvec3(pixel, seed)).x) & (strata - 1u);
     const uint jitter = hash3(uvec3(at, seed ^ 0x9e3779b9u)).y;
-    const uint number = c.samples_log2 == 0 ? jitter : stratum << (32u - c.samples_log2) | jitter >> c.samples_log2;
+    const uint number = bits == 0 ? jitter : stratum << (32u - bits) | jitter >> bits;
     return transmittance >= 1.0 || number < uint(transmittance * 4294967296.0);
 }
 
@@ -66,7 +66,7 @@ bool begins(Volume v)
 
 bool hits(Volume v, uvec2 at, vec3 e)
 {
-    if (texelFetch(primitive_image, ivec2(at), 0).r == v.primitive) return false;
+    if (texelFetch(primitive_image, ivec2(pixel_of(at)), 0).r == v.primitive) return false;
     if (takes_tiles(v)) return true;
     const vec3 through = transmittance_at(v, e);
     if (MODE == MODE_STOCHASTIC) return !passes_at_random(grey(through), v.primitive, at);

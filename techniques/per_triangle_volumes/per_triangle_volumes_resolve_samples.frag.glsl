@@ -46,7 +46,7 @@ void main()
     for (uint y = 0; y < per_pixel.y; ++y)
         for (uint x = 0; x < per_pixel.x; ++x) {
             const uvec2 at = first + uvec2(x, y);
-            mean += texelFetch(depth_image, ivec2(at), 0).r == 0.0 ? vec3(1.0) : sample_through(at);
+            mean += texelFetch(depth_image, ivec2(pixel_of(at)), 0).r == 0.0 ? vec3(1.0) : sample_through(at);
         }
     through = vec4(mean / float(per_pixel.x * per_pixel.y), 1.0);
 }

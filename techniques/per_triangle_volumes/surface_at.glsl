@@ -51,7 +51,7 @@ vec3 transmittance_at(Volume v, vec3 e)
     const float sum = e.x + e.y + e.z;
     const vec3 at = e / sum;
     // from one pixel to the next, not sample: the mean of a pixel's samples is as wide as that
-    const vec2 pixel = 2.0 * c.tree.step * exp2(0.5 * float(c.samples_log2));
+    const vec2 pixel = 2.0 * c.tree.step * exp2(vec2(c.side_log2));
     const vec3 right = vec3(v.side_0.x, v.side_1.x, v.side_2.x) * pixel.x, down = vec3(v.side_0.y, v.side_1.y, v.side_2.y) * pixel.y;
     return transmittance_of(
         corners_of(v), at, (right - at * (right.x + right.y + right.z)) / sum, (down - at * (down.x + down.y + down.z)) / sum);

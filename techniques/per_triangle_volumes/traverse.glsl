@@ -17,9 +17,15 @@ layout(constant_id = 3) const uint PHASE = PHASE_EXPAND;
 // `inside`: it is known already to lie in the volume, as all below a tile do that does.
 bool hits_sample(Volume v, vec3 limits, uvec2 at, bool inside)
 {
-    const vec3 p = vec3(sample_ndc(at), receiver_depth(texelFetch(depth_image, ivec2(at), 0).r));
+    const uvec2 pixel = pixel_of(at);
+    const vec4 surface = texelFetch(depth_image, ivec2(pixel), 0);
+    const vec3 p = vec3(sample_ndc(at), receiver_depth(depth_on(surface, at)));
     vec3 e;
-    return (is_inside(v, limits, p, e) || inside) && hits(v, at, e);
+    if (!is_inside(v, limits, p, e) && !inside) return false;
+    // Where the plane of a pixel's triangle is carried on beyond its edge, in a hollow, it passes behind the next one, which the pixel's centre
+    // does not.
+    if (TREE.spread != uvec2(0) && plane_value(v.cap, vec3(pixel_ndc(pixel), receiver_depth(surface.x))) < 0.0) return false;
+    return hits(v, at, e);
 }
 
 // Children to descend into. `certain` are those of them that lie inside, whose samples still differ.

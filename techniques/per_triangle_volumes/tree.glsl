@@ -43,6 +43,25 @@ vec2 sample_ndc(uvec2 at)
     return x;
 }
 
+// Of a pixel's centre, among the samples that it is spread to.
+vec2 pixel_ndc(uvec2 pixel)
+{
+    precise const vec2 x = vec2(ivec2((2 * pixel + 1) << TREE.spread) - ivec2(TREE.samples)) * TREE.step;
+    return x;
+}
+
+uvec2 pixel_of(uvec2 at) { return at >> TREE.spread; }
+
+// `surface`: the pixel's depth and slopes (per_triangle_volumes_slopes.frag.glsl). A depth image, with nothing in its other channels, is the same
+// without slopes.
+float depth_on(vec4 surface, uvec2 at)
+{
+    if (TREE.spread == uvec2(0)) return surface.x;
+    const vec2 width = vec2(uvec2(1) << TREE.spread), offset = (vec2(at & ((uvec2(1) << TREE.spread) - 1u)) + 0.5) / width - 0.5;
+    precise const float z = surface.x + (surface.y * offset.x + surface.z * offset.y);
+    return z;
+}
+
 // A sample's depth is off by a few roundings, and it must not lie behind its own surface. It is moved towards the eye, off the side that is
 // seen; every plane of every triangle then sees the same point, so that what holds for all points behind a closed surface holds for it. (A
 // bias of the triangles' own planes let light in through those that the light sees edge-on.)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Semitransparent casters of per_triangle_volumes, and its samples: closed forms and ray-traced transmittance.
-#include "exact_scenes.h"
+#include "exact_suite.h"
 
 #include "scene/load.h"
 #include "truth/truth.h"
@@ -337,6 +337,47 @@ TEST_F(PerTriangleModes, SamplesAreThePixelsOfALargerPicture)
             EXPECT_LT(worst, 1e-6);
             EXPECT_GT(partly, 50u);
         }
+}
+
+/// The 32 positions of each pixel by the double-precision test of the plane's own points, where that plane fills the pixel.
+class PerTriangleExtrapolated : public ExactTest { };
+
+TEST_F(PerTriangleExtrapolated, PositionsOnThePixelsPlaneAreAsRaysFindThem)
+{
+    const scene::Scene s = soup(31, 90);
+    const gpu::Size size{72, 48};
+    const scene::View view = scene::make_view(oblique, size, s.bounds());
+    for (const char* text : {"sun,elevation=55,azimuth=20,angle=0", "point,position=0.6/4.5/1,radius=0"}) {
+        const HardTruth truth(s, scene::parse_light(text, {}, s.bounds()));
+        const std::vector<Seen> seen = receivers(truth, s, oblique, size);
+        const std::vector<float> got = draw({technique_per_triangle_volumes, "", {{"samples", 3}}}, s, oblique, size, text);
+        size_t wrong = 0, partly = 0, unknown = 0, judged = 0;
+        for (int y = 1; y + 1 < size.height; ++y)
+            for (int x = 1; x + 1 < size.width; ++x) {
+                const size_t i = size_t(y * size.width + x);
+                bool whole = seen[i].own != SIZE_MAX && seen[i].facing > 0.1;
+                for (int k = 0; k < 9; ++k) whole = whole && seen[size_t((y + k / 3 - 1) * size.width + x + k % 3 - 1)].own == seen[i].own;
+                if (!whole) continue;
+                int lit = 0, doubtful = 0;
+                const Triangle& t = truth.triangles()[seen[i].own];
+                for (int k = 0; k < 32; ++k) {
+                    const scene::Ray ray
+                        = scene::view_ray(view, vec2(float(x), float(y)) + vec2((float(k % 8) + 0.5f) / 8, (float(k / 8) + 0.5f) / 4));
+                    const double along = glm::dot(seen[i].n, t[0] - dvec3(ray.origin)) / glm::dot(seen[i].n, dvec3(ray.direction));
+                    const Verdict v = truth.at(dvec3(ray.origin) + along * dvec3(ray.direction), seen[i].n, seen[i].own);
+                    lit += v == Verdict::lit, doubtful += v == Verdict::unknown;
+                }
+                const int found = int(std::lround(got[i] * 32));
+                wrong += found < lit || found > lit + doubtful;
+                partly += found > 0 && found < 32;
+                unknown += size_t(doubtful), ++judged;
+            }
+        // Within a pixel, a triangle that stands on the surface darkens only what is behind it together with the pixel's centre.
+        EXPECT_LE(wrong, 2u) << text;
+        EXPECT_GT(partly, 40u);
+        EXPECT_GT(judged, 1000u);
+        EXPECT_LT(double(unknown), 0.02 * 32 * double(judged));
+    }
 }
 
 } // namespace
