@@ -9,6 +9,11 @@ using namespace per_triangle_mode;
 
 class PerTriangleSamples : public PerTriangleTest { };
 
+float at(const std::vector<float>& picture, int x, int y, int width, int channels)
+{
+    return picture[(size_t(y) * size_t(width) + size_t(x)) * size_t(channels)];
+}
+
 /// The very samples of a picture of so many times the size.
 TEST_F(PerTriangleSamples, SamplesAreThePixelsOfALargerPicture)
 {
@@ -28,8 +33,8 @@ TEST_F(PerTriangleSamples, SamplesAreThePixelsOfALargerPicture)
                 for (int x = 0; x < 48; ++x) {
                     double sum = 0;
                     for (int k = 0; k < side * side; ++k)
-                        sum += double(fine[size_t(((y * side + k / side) * 48 * side + x * side + k % side) * channels)]);
-                    const double value = double(got[size_t((y * 48 + x) * channels)]);
+                        sum += double(at(fine, x * side + k % side, y * side + k / side, 48 * side, channels));
+                    const double value = double(at(got, x, y, 48, channels));
                     worst = std::max(worst, std::abs(value - sum / (side * side)));
                     partly += value > 0.01 && value < 0.99;
                 }
@@ -53,15 +58,18 @@ TEST_F(PerTriangleExtrapolated, PositionsOnThePixelsPlaneAreAsRaysFindThem)
         size_t wrong = 0, partly = 0, unknown = 0, judged = 0;
         for (int y = 1; y + 1 < size.height; ++y)
             for (int x = 1; x + 1 < size.width; ++x) {
-                const size_t i = size_t(y * size.width + x);
+                const size_t i = size_t(y) * size_t(size.width) + size_t(x);
                 bool whole = seen[i].own != SIZE_MAX && seen[i].facing > 0.1;
-                for (int k = 0; k < 9; ++k) whole = whole && seen[size_t((y + k / 3 - 1) * size.width + x + k % 3 - 1)].own == seen[i].own;
+                for (int k = 0; k < 9; ++k)
+                    whole
+                        = whole && seen[i + size_t(k / 3) * size_t(size.width) + size_t(k % 3) - size_t(size.width) - 1].own == seen[i].own;
                 if (!whole) continue;
                 int lit = 0, doubtful = 0;
                 const Triangle& t = truth.triangles()[seen[i].own];
                 for (int k = 0; k < 32; ++k) {
-                    const scene::Ray ray
-                        = scene::view_ray(view, vec2(float(x), float(y)) + vec2((float(k % 8) + 0.5f) / 8, (float(k / 8) + 0.5f) / 4));
+                    const int column = k % 8, row = k / 8;
+                    const vec2 within = (vec2(float(column), float(row)) + 0.5f) / vec2(8, 4);
+                    const scene::Ray ray = scene::view_ray(view, vec2(float(x), float(y)) + within);
                     const double along = glm::dot(seen[i].n, t[0] - dvec3(ray.origin)) / glm::dot(seen[i].n, dvec3(ray.direction));
                     const Verdict v = truth.at(dvec3(ray.origin) + along * dvec3(ray.direction), seen[i].n, seen[i].own);
                     lit += v == Verdict::lit, doubtful += v == Verdict::unknown;
