@@ -38,6 +38,8 @@ struct LightMapLayer {
     uint warped; ///< 1: map_from_world's third row is not the stored depth, which fragments write, texels differ in width, and w is 1
                  ///< where it is least of all that is seen; 2: a paraboloid, to be read through layer_at (shaders/light_map.glsl)
     float texel_uv; ///< width of a texel in uv
+    vec2 axis_uv; ///< where a perspective layer's axis falls in uv: 0.5 without rounding in its middle, so that texels on a panel lie in
+                  ///< rows; 0 where it is orthographic, of no meaning where it is warped
 };
 
 struct LightMap {

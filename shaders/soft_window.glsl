@@ -33,10 +33,9 @@ vec2 light_half_size(LightMapLayer layer, Light light, vec3 p_world)
         // a row of the projection, without the part of perspective that puts the layer's axis into its place, is an axis of the map
         const bool perspective = layer.perspective != 0;
         vec3 row = vec3(layer.map_from_world[0][k], layer.map_from_world[1][k], layer.map_from_world[2][k]);
-        const float centre = dot(row, axis), centring = !perspective ? 0.0 : abs(centre - 0.5) < 1e-5 ? 0.5 : centre; // without rounding, as axis_uv
-        row -= centring * axis;
+        row -= layer.axis_uv[k] * axis;
         const float scale = length(row);
-        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - centring) / scale : 0.0;
+        const float tangent = perspective ? (h[k] / max(h.w, layer.near) - layer.axis_uv[k]) / scale : 0.0;
         size[k] = light_half_width(light, row / scale - tangent * axis);
     }
     return size;

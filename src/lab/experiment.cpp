@@ -30,6 +30,12 @@ const std::vector<std::string>& number_columns()
     return names;
 }
 
+bool is_number_column(const std::string& name)
+{
+    return std::find(number_columns().begin(), number_columns().end(), name) != number_columns().end()
+        || (name.rfind("pass:", 0) == 0 && name.size() > 5) || (name.rfind("count:", 0) == 0 && name.size() > 6);
+}
+
 std::string scalar_text(const Json& value)
 {
     if (value.is_string()) return value.get<std::string>();

@@ -72,4 +72,6 @@ const std::vector<std::string>& number_columns(); ///< ms, ms_deviation, mib, ..
                                                   ///< "pass:NAME+START*", the sum of passes by name or by their names' beginning;
                                                   ///< "count:NAME" is one that the technique counts
 
+bool is_number_column(const std::string&);
+
 } // namespace gnomon::lab

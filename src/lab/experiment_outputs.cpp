@@ -17,12 +17,6 @@ bool holds(const std::vector<std::string>& names, const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_number(const std::string& name)
-{
-    return holds(number_columns(), name) || (name.rfind("pass:", 0) == 0 && name.size() > 5)
-        || (name.rfind("count:", 0) == 0 && name.size() > 6);
-}
-
 class OutputReader {
 public:
     explicit OutputReader(Experiment& out)
@@ -60,7 +54,7 @@ private:
 
     std::string number(const std::string& name, const char* what)
     {
-        if (!is_number(name)) throw base::Error(base::unknown_name(fmt::format("metric of {}", what), name, number_columns()));
+        if (!is_number_column(name)) throw base::Error(base::unknown_name(fmt::format("metric of {}", what), name, number_columns()));
         used_.push_back(name);
         return name;
     }

@@ -25,7 +25,7 @@ struct Open {
     std::string text;
     Stage stage;
     std::unique_ptr<shadow::SceneGpu> scene;
-    std::optional<truth::Reference> truth;
+    std::map<truth::Quantity, truth::Reference> truths;
 };
 
 std::string stage_text(const FigurePanel& p)
@@ -68,10 +68,12 @@ public:
         Open& open = opened(panel);
         const bool is_truth = panel.technique == "truth";
         if (panel.show == Show::slice) return write(slice_of(open, panel), panel, file, base::Encoding::linear);
-        if (is_truth && panel.show == Show::visibility) return write(truth(open).visibility.mean, panel, file, base::Encoding::linear);
+        if (is_truth && panel.show == Show::visibility)
+            return write(truth(open, panel.quantity).visibility.mean, panel, file, base::Encoding::linear);
         if (is_truth && panel.show == Show::lit)
-            return write(display(shade_with(device_, *open.scene, open.stage, {truth(open).visibility.mean}, {}), open.stage), panel, file,
-                base::Encoding::srgb);
+            return write(
+                display(shade_with(device_, *open.scene, open.stage, {truth(open, panel.quantity).visibility.mean}, {}), open.stage), panel,
+                file, base::Encoding::srgb);
         if (is_truth) base::fail("the panel '{}' shows an error of the truth; name a technique", panel.label);
         if (panel.show >= Show::texel_footprint) return write(footprint(open, panel), panel, file, base::Encoding::linear);
         const Rendered rendered = render(
@@ -95,18 +97,19 @@ private:
         return *open_;
     }
 
-    const truth::Reference& truth(Open& open) const
+    const truth::Reference& truth(Open& open, truth::Quantity quantity) const
     {
-        if (!open.truth)
-            open.truth = truth::reference(open.stage.scene, open.stage.view, open.stage.lights.front(), {.samples = truth_samples_});
-        return *open.truth;
+        const auto found = open.truths.find(quantity);
+        if (found != open.truths.end()) return found->second;
+        return open.truths[quantity]
+            = truth::reference(open.stage.scene, open.stage.view, open.stage.lights.front(), {.samples = truth_samples_}, quantity);
     }
 
     base::Picture slice_of(Open& open, const FigurePanel& panel) const
     {
         const Slice slice = make_slice(open.stage, panel.slice);
         const base::Picture image = panel.technique == "truth"
-            ? slice_truth(open.stage, slice, truth::Quantity::visibility, truth_samples_)
+            ? slice_truth(open.stage, slice, panel.quantity, truth_samples_)
             : slice_image(device_, *open.scene, open.stage, slice, parse_choice(panel.technique));
         return slice_display(image, slice_outline(open.stage.scene, slice));
     }
@@ -122,7 +125,7 @@ private:
 
     base::Picture error_of(Open& open, const FigurePanel& panel, const Rendered& rendered) const
     {
-        const truth::Reference& rays = truth(open);
+        const truth::Reference& rays = truth(open, truth_quantity(parse_choice(panel.technique)));
         const base::Picture other
             = panel.show == Show::error ? rays.visibility.mean : filter_reference(device_, *open.scene, open.stage, panel.reference).image;
         const base::Picture no_variance;

@@ -18,6 +18,7 @@ enum class Show { lit, visibility, error, filter_error, slice, texel_footprint, 
 struct FigurePanel {
     std::string label, technique; ///< technique: parse_choice, or "truth"
     Show show = Show::lit;
+    truth::Quantity quantity = truth::Quantity::visibility; ///< of "truth"
     StageOptions stage;
     SliceOptions slice;
     std::string reference; ///< filter_error: what the technique is compared with

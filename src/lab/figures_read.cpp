@@ -20,8 +20,8 @@ namespace {
 const std::vector<std::string> shows = {
     "lit", "visibility", "error", "filter_error", "slice", "texel_footprint", "texel_footprint_perspective", "texel_footprint_projection"};
 /// What a figure says for all its panels and a panel for itself.
-const std::vector<std::string> panel_keys = {"label", "technique", "show", "scene", "detail", "camera", "light", "size", "reference",
-    "gain", "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
+const std::vector<std::string> panel_keys = {"label", "technique", "quantity", "show", "scene", "detail", "camera", "light", "size",
+    "reference", "gain", "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
 
 vec3 vector_of(const Json& v, const char* key, const fs::path& file)
 {
@@ -36,6 +36,14 @@ Show show_of(const std::string& text, const fs::path& file)
     return Show(at - shows.begin());
 }
 
+truth::Quantity quantity_of(const std::string& text, const fs::path& file)
+{
+    const std::vector<std::string> names = {"visibility", "transmittance"};
+    const auto at = std::ranges::find(names, text);
+    if (at == names.end()) base::fail("{}: {}", file.string(), base::unknown_name("quantity", text, names));
+    return truth::Quantity(at - names.begin());
+}
+
 FigurePanel panel_of(const Json& j, const fs::path& file)
 {
     FigurePanel p;
@@ -43,7 +51,10 @@ FigurePanel panel_of(const Json& j, const fs::path& file)
     if (p.technique.empty()) base::fail("{}: a panel names no technique, nor \"truth\"", file.string());
     p.label = j.value("label", p.technique);
     p.show = show_of(j.value("show", "lit"), file);
+    p.quantity = quantity_of(j.value("quantity", "visibility"), file);
     p.stage.scene = j.value("scene", "contact");
+    if (const fs::path beside = file.parent_path() / p.stage.scene; fs::is_regular_file(beside) && !fs::exists(p.stage.scene))
+        p.stage.scene = beside.string();
     p.stage.load.detail = j.value("detail", 1.0);
     p.stage.camera = j.value("camera", "");
     if (j.contains("light")) p.stage.lights = {j["light"].get<std::string>()};

@@ -53,8 +53,7 @@ std::vector<PlotPoint> points_of(const PlotSpec& plot, const std::vector<Row>& r
 /// One series for each combination of the series' columns; runs that share x too are averaged.
 std::vector<PlotSeries> collect(const PlotSpec& plot, const std::vector<Row>& rows)
 {
-    const bool measured
-        = std::find(number_columns().begin(), number_columns().end(), plot.x) != number_columns().end() || plot.x.rfind("pass:", 0) == 0;
+    const bool measured = is_number_column(plot.x);
     std::vector<PlotSeries> out;
     std::map<std::string, size_t> colors, dashes;
     std::map<std::pair<std::string, std::set<const void*>>, size_t> drawn;

@@ -44,6 +44,11 @@ std::string csv(const Experiment& experiment, const std::vector<Row>& rows)
     for (const std::string& column : number_columns())
         if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.number(column).has_value(); }))
             numbers.push_back(column);
+    std::set<std::string> counts;
+    for (const Row& row : rows)
+        if (row.line->contains("counts"))
+            for (const auto& [name, value] : row.line->at("counts").items()) counts.insert("count:" + name);
+    numbers.insert(numbers.end(), counts.begin(), counts.end());
     std::string out = fmt::format("{},{},skipped,commit\r\n", fmt::join(texts, ","), fmt::join(numbers, ","));
     for (const Row& row : rows) {
         for (const std::string& column : texts) out += quoted(row.cell->columns.at(column)) + ",";

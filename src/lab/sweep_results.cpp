@@ -42,7 +42,7 @@ std::optional<double> number_at(const Json& object, const std::string& key)
     return found->get<double>();
 }
 
-/// Whether `patterns`, joined by '+', name a pass: each is its name, or ends in '*' and begins it.
+/// Whether `patterns`, joined by '+', name a pass or a count: each is its name, or ends in '*' and begins it.
 bool names_pass(std::string_view patterns, std::string_view pass)
 {
     for (size_t from = 0; from <= patterns.size();) {
@@ -64,6 +64,17 @@ std::optional<double> pass_ms(const Json& line, const std::string& owner, std::s
         if (name.rfind(owner, 0) != 0 || !names_pass(patterns, std::string_view(name).substr(owner.size()))) continue;
         if (const std::optional<double> ms = number_at(pass, "ms")) sum = sum.value_or(0.0) + *ms;
     }
+    return sum;
+}
+
+/// The sum of those numbers that the technique counts and `patterns` names; nothing where there are none.
+std::optional<double> counted(const Json& line, std::string_view patterns)
+{
+    std::optional<double> sum;
+    const auto counts = line.find("counts");
+    if (counts == line.end() || !counts->is_object()) return sum;
+    for (const auto& [name, value] : counts->items())
+        if (names_pass(patterns, name) && value.is_number()) sum = sum.value_or(0.0) + value.get<double>();
     return sum;
 }
 
@@ -145,7 +156,7 @@ std::optional<double> Row::number(const std::string& column) const
     if (column == "ms_deviation") return number_at(*line, "technique_deviation");
     if (column == "gbuffer_ms") return pass_ms(*line, "", "gbuffer");
     if (column.rfind("pass:", 0) == 0) return pass_ms(*line, line->at("technique").get<std::string>() + "/", column.substr(5));
-    if (column.rfind("count:", 0) == 0) return line->contains("counts") ? number_at(line->at("counts"), column.substr(6)) : std::nullopt;
+    if (column.rfind("count:", 0) == 0) return counted(*line, column.substr(6));
     if (column == "passes") return double(own_passes(*line));
     if (column == "scored_pixels" || column == "excluded_pixels") return number_at(*line, column);
     if (column != "mib") return number_at(line->at("metrics"), column);

@@ -3,6 +3,7 @@
 #include "base/names.h"
 #include "scene/json_reader.h"
 #include "scene/load.h"
+#include "scene/scene_json_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +162,7 @@ Scene load_scene_json(const std::filesystem::path& path, const LoadOptions& opti
 {
     const nlohmann::json json = read_json(path);
     const JsonReader file(json, path.string());
-    file.check_keys(Keys{"model", "detail", "time", "gltf_scene", "tuning", "cameras", "lights"});
+    file.check_keys(Keys{"model", "detail", "time", "gltf_scene", "tuning", "cameras", "lights", "materials"});
     const LoadOptions defaults;
     LoadOptions inner;
     inner.time = chosen(file, "time", options.time, defaults.time, 0.0, 1e9);
@@ -178,6 +179,7 @@ Scene load_scene_json(const std::filesystem::path& path, const LoadOptions& opti
     if (file.has("tuning")) scene.tuning = file.at("tuning").truth();
     merge(scene.cameras, file, "cameras", read_camera);
     merge(scene.lights, file, "lights", [&](const JsonReader& r, size_t i) { return read_light(r, i, path.parent_path()); });
+    if (file.has("materials")) change_materials(scene, file.at("materials"));
     return scene;
 }
 

@@ -77,22 +77,13 @@ vec2 along_sides(LightFrame f, vec2 p)
     return f.exchanged ? p.yx : p;
 }
 
-// Where a perspective layer's own axis falls, in uv. In the middle without rounding: a cube's texels lie on a panel in rows, and which of
-// them an edge between two falls to would change.
-vec2 axis_uv(LightMapLayer layer)
-{
-    const vec2 uv = (mat3(layer.map_from_world) * layer.depth_plane.xyz).xy;
-    return all(lessThan(abs(uv - 0.5), vec2(1e-5))) ? vec2(0.5) : uv;
-}
-
 // The layer's axes in the world, along u, v and its depth: rows of the projection, without the part of perspective that puts the axis into
 // its place.
 mat3 layer_axes(LightMapLayer layer)
 {
     const vec3 depth = layer.depth_plane.xyz;
     const mat3 rows = transpose(mat3(layer.map_from_world));
-    const vec2 centring = layer.perspective != 0 ? axis_uv(layer) : vec2(0.0);
-    return mat3(normalize(rows[0] - centring.x * depth), normalize(rows[1] - centring.y * depth), depth);
+    return mat3(normalize(rows[0] - layer.axis_uv.x * depth), normalize(rows[1] - layer.axis_uv.y * depth), depth);
 }
 
 // Axes: the map's, depth last; t: tangents of the receiver's direction; d: its depth. A sphere is projected onto the plane along the ray

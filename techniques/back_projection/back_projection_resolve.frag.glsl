@@ -279,7 +279,7 @@ vec4 soft_visibility(SoftPoint p)
     v.slice = vec2(-1.0, 1e30);
     v.size = int(c.soft.map.size);
 
-    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - axis_uv(layer) * c.soft.map.size) * layer.texel_metres, depth);
+    frame = light_frame(c.soft.light, layer_axes(layer), (v.at - layer.axis_uv * c.soft.map.size) * layer.texel_metres, depth);
     // areas of a disk: those of the square of its size
     if (words == 0 && c.soft.light.kind != LIGHT_RECT) frame.scale *= 1.12837917;
     // All that blocks lies above the receiver's plane, and so does what it hides of the light: not a factor of the part up there.

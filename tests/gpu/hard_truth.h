@@ -72,14 +72,7 @@ public:
         return dvec3(std::get<scene::PointLight>(light_.shape).position) - p;
     }
 
-private:
-    bool in_plane(const Triangle& own, const Triangle& other) const
-    {
-        const dvec3 n = normal(own);
-        const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
-        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < in_plane_ * glm::length(n);
-    }
-
+    /// Whether one triangle stands between p and the light.
     Verdict behind(const Triangle& t, dvec3 p) const
     {
         const dvec3 n = normal(t);
@@ -96,6 +89,14 @@ private:
         if (least < -margin_ && most > margin_) return Verdict::lit;
         const bool inside = least > margin_ || most < -margin_;
         return inside && height < -margin_ && std::abs(light_height) > margin_ ? Verdict::dark : Verdict::unknown;
+    }
+
+private:
+    bool in_plane(const Triangle& own, const Triangle& other) const
+    {
+        const dvec3 n = normal(own);
+        const auto off = [&](dvec3 p) { return std::abs(glm::dot(n, p - own[0])); };
+        return std::max(off(other[0]), std::max(off(other[1]), off(other[2]))) < in_plane_ * glm::length(n);
     }
 
     scene::Light light_;

@@ -6,6 +6,8 @@
 #include "shadow/gbuffer.h"
 #include "shadow/technique.h"
 
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -72,6 +74,30 @@ protected:
         technique->record(passes, {s, view, light, scene, g, passes.import(out), 0}, params.bytes());
         device().submit(std::move(passes));
         return device().read_back(out).values;
+    }
+
+    /// What it counts.
+    static std::map<std::string, uint64_t> count(const shadow::TechniqueInfo& info, const scene::Scene& s, const scene::Camera& camera,
+        Size size, const char* text, const Values& given)
+    {
+        const scene::Light light = scene::parse_light(text, {}, s.bounds());
+        const scene::View view = scene::make_view(camera, size, s.bounds());
+        shadow::ParamValues params(info.params());
+        for (const auto& [name, value] : given) params.set(name, value);
+        shadow::SceneGpu scene(device(), s);
+        Image out = image("visibility", shadow::output_format(info, params.bytes(), light), size);
+        const std::unique_ptr<shadow::Technique> technique = info.create(device());
+        PassList passes(device());
+        const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view, {.material = false});
+        std::vector<shadow::Counter> counters;
+        technique->record(passes, {s, view, light, scene, g, passes.import(out), 0, nullptr, &counters}, params.bytes());
+        Buffer counted = storage<uint32_t>("counted", counters.size());
+        for (size_t i = 0; i < counters.size(); ++i) passes.copy(counters[i].buffer, passes.import(counted), 4, counters[i].offset, 4 * i);
+        device().submit(std::move(passes));
+        const std::vector<uint32_t> numbers = values<uint32_t>(counted);
+        std::map<std::string, uint64_t> counts;
+        for (size_t i = 0; i < counters.size(); ++i) counts[counters[i].name] += numbers[i];
+        return counts;
     }
 
     static double mean(const std::vector<float>& v)

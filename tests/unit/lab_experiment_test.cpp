@@ -95,7 +95,7 @@ TEST(Experiment, GroupsAreMeans)
                 {{{"name", std::string(cell->choice.info->id) + "/resolve"}, {"ms", 10 * ms}},
                     {{"name", std::string(cell->choice.info->id) + "/sum rows"}, {"ms", ms}, {"count", 3}},
                     {{"name", std::string(cell->choice.info->id) + "/sum columns"}, {"ms", 2 * ms}}}},
-            {"metrics", {{"mae", nullptr}, {"rms", ms}}}};
+            {"counts", {{"tile_tests", 100 * number}, {"sample_tests", 1}}}, {"metrics", {{"mae", nullptr}, {"rms", ms}}}};
         results.add(line.dump(), "file", ++number);
         ms *= 2;
     }
@@ -111,6 +111,9 @@ TEST(Experiment, GroupsAreMeans)
     EXPECT_EQ(groups[0].mean("pass:sum rows+resolve"), 27.5);
     EXPECT_FALSE(groups[0].mean("pass:sum"));
     EXPECT_EQ(groups[0].mean("passes"), 5.0);
+    EXPECT_EQ(groups[0].mean("count:tile_tests"), 100.0) << "of the first and the third run";
+    EXPECT_EQ(groups[0].mean("count:tile_tests+sample_tests+updates"), 101.0);
+    EXPECT_FALSE(groups[0].mean("count:updates"));
     EXPECT_EQ(groups[0].mean("mib"), 2.0);
     EXPECT_FALSE(groups[0].mean("mae")) << "what was not finite is none";
     EXPECT_EQ(grouped(rows, {"technique"}, {{"kernel", {"3"}}})[0].mean("ms"), 4.0);

@@ -120,6 +120,28 @@ TEST_F(SceneJson, AimsByTargetOrDirection)
     EXPECT_EQ(scene.lights[2].intensity, 4.0f);
 }
 
+TEST_F(SceneJson, MaterialsOfTheModelAreChangedByName)
+{
+    const auto named = [](const Scene& s, std::string_view name) {
+        return *std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == name; });
+    };
+    const Scene before = load("tree"), after = load_scene_json(write(R"({"model": "tree", "materials": [{"name": "leaves", "alpha": "blend",
+        "color": [0.2, 0.4, 0.6], "opacity": 0.5, "textured": false, "double_sided": false, "roughness": 0.25, "metallic": 1, "transmission": 0.125},
+        {"name": "bark", "alpha": "mask", "cutoff": 0.75}]})"));
+    const Material leaves = named(after, "leaves"), bark = named(after, "bark");
+    EXPECT_EQ(leaves.alpha, AlphaMode::blend);
+    EXPECT_EQ(leaves.base_color, vec4(0.2f, 0.4f, 0.6f, 0.5f));
+    EXPECT_EQ(leaves.base_color_texture.texture, -1);
+    EXPECT_FALSE(leaves.double_sided);
+    EXPECT_EQ(leaves.roughness, 0.25f);
+    EXPECT_EQ(leaves.metallic, 1.0f);
+    EXPECT_EQ(leaves.transmission, 0.125f);
+    EXPECT_EQ(bark.alpha, AlphaMode::mask);
+    EXPECT_EQ(bark.alpha_cutoff, 0.75f);
+    EXPECT_EQ(bark.base_color, named(before, "bark").base_color) << "what is left out stays";
+    EXPECT_EQ(bark.base_color_texture.texture, named(before, "bark").base_color_texture.texture);
+}
+
 TEST_F(SceneJson, ErrorsNameFilePlaceAndWayOut)
 {
     struct Bad {
@@ -154,6 +176,10 @@ TEST_F(SceneJson, ErrorsNameFilePlaceAndWayOut)
         {R"({"model": "plane", "lights": [{"type": "point", "name": "a", "position": [0, 1, 0]}, {"type": "point", "name": "a", "position": [0, 1, 0]}]})",
             "/lights/1: the name 'a'"},
         {camera + R"(, "fov_deg": 50, "half_height": 2}]})", "either fov_deg"},
+        {R"({"model": "tree", "materials": [{"name": "leafs"}]})", "/materials/0/name: unknown material 'leafs'"},
+        {R"({"model": "tree", "materials": [{"name": "leaves", "alpha": "glass"}]})", "/materials/0/alpha: unknown alpha 'glass'"},
+        {R"({"model": "tree", "materials": [{"name": "leaves", "opacity": 2}]})", "/materials/0/opacity: is 2"},
+        {R"({"model": "tree", "materials": [{"alpha": "mask"}]})", "'name' is missing"},
         {camera + R"(, "fov": 50}]})", "/cameras/0/fov: unknown key"},
         {camera + R"(, "a/b~": 50}]})", "/cameras/0/a~1b~0:"},
         {R"({"model": "plane", "cameras": [{"eye": [0, 0, 0], "target": [0, 0, 0]}]})", "own eye"},

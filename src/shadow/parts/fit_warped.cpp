@@ -2,6 +2,7 @@
 #include "shadow/parts/clip.h"
 #include "shadow/parts/fit.h"
 #include "shadow/parts/warp_parameter.h"
+#include "shadow/parts/warp_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -15,34 +16,9 @@ namespace gnomon::shadow::parts {
 
 namespace {
 
-using glm::dmat4;
-using glm::dvec2;
-using glm::dvec3;
-using glm::dvec4;
-
-/// World to a map: horizontal and vertical coordinate, and w.
-using Rows = std::array<dvec4, 3>;
+using namespace warp;
 
 constexpr double greatest_ratio = 1e4; ///< of texels' widths; also the weakest warp: n over the map's extent
-
-dvec4 row(const mat4& m, int r) { return {m[0][r], m[1][r], m[2][r], m[3][r]}; }
-
-Rows rows_of(const shaders::LightMapLayer& layer)
-{
-    return {row(layer.map_from_world, 0), row(layer.map_from_world, 1), row(layer.map_from_world, 3)};
-}
-
-dvec3 at(const Rows& rows, const dvec4& p) { return {glm::dot(rows[0], p), glm::dot(rows[1], p), glm::dot(rows[2], p)}; }
-dvec3 at(const Rows& rows, vec3 p) { return at(rows, dvec4(dvec3(p), 1.0)); }
-
-dvec3 across(dvec3 v, dvec3 axis) { return v - axis * (glm::dot(v, axis) / glm::dot(axis, axis)); }
-
-/// The gradient of the k-th coordinate in the world.
-dvec3 gradient(const Rows& rows, int k, vec3 p)
-{
-    const dvec3 h = at(rows, p);
-    return (dvec3(rows[size_t(k)]) - dvec3(rows[2]) * (h[k] / h.z)) / h.z;
-}
 
 /// Which way round the map's axes lie, seen along `axis`: with the other sign casters' fronts would be backs.
 double orientation(const Rows& rows, vec3 p, dvec3 axis) { return glm::dot(glm::cross(gradient(rows, 0, p), gradient(rows, 1, p)), axis); }
@@ -125,9 +101,6 @@ std::optional<shaders::LightMapLayer> fit_rectangle(
     return layer;
 }
 
-/// Depth along the view's axis.
-double depth_in(const scene::View& view, vec3 p) { return glm::dot(dvec3(forward_of(view)), dvec3(p) - dvec3(view.eye)); }
-
 /// The focused map with its second axis along the view's image, and the first from the eye's: of the view's axis between the eye and its
 /// furthest receiver, the part before the light. False where that is a point.
 bool turn(Rows& rows, const shaders::LightMapLayer& focused, const scene::View& view, const std::vector<vec3>& points)
@@ -202,74 +175,6 @@ std::optional<Rows> frustum_across(
     return Rows{rows[0], -rows[2], w};
 }
 
-/// The unit vector about which a cone holds all `directions` with the least angle: the centre of the smallest ball around them, walked to
-/// (Badoiu, Clarkson 2003, "Smaller core-sets for balls"). Zero where a half-space does not hold them.
-dvec3 cone_axis(const std::vector<dvec3>& directions)
-{
-    dvec3 centre = directions.front();
-    for (int step = 1; step <= 400; ++step) {
-        const auto furthest = std::max_element(
-            directions.begin(), directions.end(), [&](dvec3 a, dvec3 b) { return glm::distance(a, centre) < glm::distance(b, centre); });
-        centre += (*furthest - centre) / double(step + 1);
-    }
-    if (!(glm::length(centre) > 1e-6)) return dvec3(0);
-    centre = glm::normalize(centre);
-    for (const dvec3 d : directions)
-        if (glm::dot(d, centre) < 1e-3) return dvec3(0);
-    return centre;
-}
-
-/// The view's projection from `slide` metres behind the eye, onto the cube [-1, 1]^3 between the depths of the receivers, as wide as they
-/// are (Kozlov 2004: the near plane as far as what is seen allows, and the eye moved back, for texels less unlike).
-dmat4 to_cube(const scene::View& view, const std::vector<vec3>& points, double slide)
-{
-    const dmat4 view_from_world(view.view_from_world);
-    double near = 1e300, far = 0.0;
-    dvec2 widest(1e-12);
-    for (const vec3 p : points) {
-        const dvec3 q(view_from_world * dvec4(dvec3(p), 1.0));
-        const double depth = std::max(-q.z, double(view.near)) + slide;
-        near = std::min(near, depth), far = std::max(far, depth);
-        widest = glm::max(widest, glm::abs(dvec2(q)) / depth);
-    }
-    far = std::max(far, near * 1.000001);
-    dmat4 cube(0.0); // of (x, y, z) with depth = slide - z
-    cube[0][0] = 1.0 / widest.x, cube[1][1] = 1.0 / widest.y;
-    cube[2][2] = -(far + near) / (far - near), cube[3][2] = (slide * (far + near) - 2.0 * far * near) / (far - near);
-    cube[2][3] = -1.0, cube[3][3] = slide;
-    return cube * view_from_world;
-}
-
-/// Perspective shadow maps (Stamminger, Drettakis 2002): the view's own projection makes a cube of what is seen and a point, mostly, of the
-/// light; the map is a picture of the cube from that point, along the axis of the least cone around the receivers (Kozlov 2004).
-std::optional<Rows> view_of_cube(
-    const shaders::LightMapLayer& focused, vec3 position, const scene::View& view, const std::vector<vec3>& points, double slide)
-{
-    const dmat4 cube = to_cube(view, points, slide);
-    const dvec4 light = cube * (focused.perspective != 0 ? dvec4(dvec3(position), 1.0) : dvec4(dvec3(focused.depth_plane), 0.0));
-    const double out = glm::length(dvec3(light));
-    dvec3 axis, eye(0.0);
-    // Further than a hundred cubes away all cones are the same, and w = 0, a light across the view, is nothing special.
-    const bool distant = std::abs(light.w) * 100.0 < out;
-    if (distant) {
-        axis = dvec3(light) * ((light.w < 0.0 ? 1.0 : -1.0) / out);
-    } else {
-        eye = dvec3(light) / light.w;
-        std::vector<dvec3> directions;
-        for (const vec3 p : points) {
-            const dvec4 q = cube * dvec4(dvec3(p), 1.0);
-            directions.push_back(glm::normalize(dvec3(q) / q.w - eye));
-        }
-        axis = cone_axis(directions);
-        if (axis == dvec3(0)) return {}; // the light is among them
-    }
-    const dvec3 up = std::abs(axis.z) < 0.99 ? dvec3(0, 0, 1) : dvec3(0, 1, 0);
-    const dvec3 x = glm::normalize(glm::cross(up, axis)), y = glm::cross(axis, x);
-    const auto seen_along = [&](dvec3 v) { return dvec4(v, -glm::dot(v, eye)) * cube; };
-    if (distant) return Rows{seen_along(x), seen_along(y), dvec4(axis * (std::abs(light.w) / out), 1.0) * cube};
-    return Rows{seen_along(x), seen_along(y), seen_along(axis)};
-}
-
 /// The storage factor, but for a factor: the widest texels over the widths of pixels at their depth, in u times in v (Lloyd 2007), at the
 /// corners of what is seen. The falloff knows nothing of what turning the map to the view's image costs.
 double storage_factor(const shaders::LightMapLayer& layer, const scene::View& view, const std::vector<vec3>& points)
@@ -284,14 +189,6 @@ double storage_factor(const shaders::LightMapLayer& layer, const scene::View& vi
     return largest.x * largest.y;
 }
 
-/// Where the rays of a perspective layer meet.
-vec3 apex(const shaders::LightMapLayer& layer)
-{
-    const Rows r = rows_of(layer);
-    const glm::dmat3 m = glm::transpose(glm::dmat3(dvec3(r[0]), dvec3(r[1]), dvec3(r[2])));
-    return vec3(-(glm::inverse(m) * dvec3(r[0].w, r[1].w, r[2].w)));
-}
-
 } // namespace
 
 std::optional<shaders::LightMapLayer> warped_layer(
@@ -300,10 +197,7 @@ std::optional<shaders::LightMapLayer> warped_layer(
     if (receivers.empty() || view.orthographic) return {};
     std::optional<Rows> rows;
     if (Fit(settings.fitting.fit) == Fit::psm) {
-        double deepest = 0.0;
-        for (const vec3 p : receivers) deepest = std::max(deepest, depth_in(view, p));
-        const vec3 position = focused.perspective != 0 ? apex(focused) : vec3(0);
-        rows = view_of_cube(focused, position, view, receivers, double(settings.fitting.psm_slide) * deepest);
+        rows = view_of_cube(focused, view, receivers, double(settings.fitting.psm_slide));
     } else {
         rows = frustum_across(focused, view, receivers, settings);
     }
