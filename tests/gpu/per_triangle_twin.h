@@ -100,6 +100,13 @@ private:
     }
     vec4 edge_plane(vec3 a, vec3 b) const { return ndc_plane(cross(to_light(a), b - a), a); }
 
+    vec4 cap_bias(float height, vec3 to_light) const
+    {
+        const float slant = std::abs(height) / std::sqrt(dot(to_light, to_light));
+        const vec3 z(world_from_ndc_[2]);
+        return {0, 0, slant * tree_.nearer.z, slant * (tree_.nearer.y + tree_.nearer.x * std::sqrt(dot(z, z)))};
+    }
+
     void add(vec3 a, vec3 b, vec3 d, uint32_t primitive)
     {
         if (before(b, a)) std::swap(a, b);
@@ -112,8 +119,8 @@ private:
         for (const float turn : {-1.0f, 1.0f}) {
             if (!doubtful && turn * height < 0.0f) continue;
             const float open = 1.17549435e-38f;
-            const Volume volume{
-                {turn * edge_plane(b, d), -turn * edge_plane(a, d), turn * edge_plane(a, b), (height > 0 ? -1.0f : 1.0f) * ndc_plane(n, a)},
+            const Volume volume{{turn * edge_plane(b, d), -turn * edge_plane(a, d), turn * edge_plane(a, b),
+                                    (height > 0 ? -1.0f : 1.0f) * ndc_plane(n, a) - cap_bias(height, to_light(a))},
                 {turn > 0 ? 0.0f : open, turn > 0 ? open : 0.0f, turn > 0 ? 0.0f : open, 0.0f}, primitive};
             bool finite = true;
             for (const vec4& p : volume.planes)
