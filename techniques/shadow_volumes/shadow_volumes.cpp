@@ -36,7 +36,8 @@ void describe(Params& p, Fields& fields)
         "is seen; those behind "
         "all receivers; those outside of the bands of the picture in which they may darken something; all of these. The picture is the "
         "same.");
-    fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands", "How many, with culling = clamp or all; one where `order` is depth, since a face that is cut has other depths.");
+    fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands",
+        "How many, with culling = clamp or all; one where `order` is depth, since a face that is cut has other depths.");
 }
 
 enum class Culling : int { none, casters, max, clamp, all };

@@ -219,8 +219,9 @@ constexpr double ways[] = {0, 1, 2, 3, 4};
 TEST_F(VolumeCullingTest, NoBitOfThePictureChanges)
 {
     double dark = 0;
-    for (uint32_t seed = 0; seed < 28; ++seed) {
+    for (uint32_t seed = 0; seed < 14; ++seed) {
         const scene::Scene s = crowd(100 + seed, 60);
+        std::vector<float> blended;
         for (const Values& values : {Values{{"counter", 2}}, Values{{"counter", 1}}, Values{{"log_alpha", 1}, {"edges", 1}}}) {
             const auto with = [&](double way, double bands) {
                 Values all_values = values;
@@ -229,16 +230,16 @@ TEST_F(VolumeCullingTest, NoBitOfThePictureChanges)
             };
             const std::vector<float> whole = with(0, 16);
             dark += 1 - mean(whole);
-            for (const double way : ways) {
-                const std::vector<float> got = with(way, 3 + seed);
-                size_t changed = 0, lighter = 0;
-                for (size_t i = 0; i < got.size(); ++i) changed += got[i] != whole[i], lighter += got[i] > whole[i];
-                EXPECT_EQ(changed, 0u) << lights[seed % 7] << ", seed " << seed << ", " << values[0].first << ", way " << way
-                                       << ", lighter " << lighter;
+            if (blended.empty()) blended = whole;
+            if (values.size() == 1) {
+                EXPECT_TRUE(whole == blended) << "by a stencil, seed " << seed;
             }
+            for (const double way : ways)
+                EXPECT_TRUE(with(way, 3 + seed) == whole)
+                    << lights[seed % 7] << ", seed " << seed << ", " << values[0].first << ", way " << way;
         }
     }
-    EXPECT_GT(dark, 3.0);
+    EXPECT_GT(dark, 2.0);
 }
 
 TEST_F(VolumeCullingTest, LessIsCountedInScenes)

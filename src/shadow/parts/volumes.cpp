@@ -26,9 +26,11 @@ gpu::BufferId buffer(gpu::PassList& passes, uint64_t bytes, const char* name, Vk
     return passes.transient(gpu::BufferDesc{std::max<uint64_t>(bytes, 16), usage, gpu::Memory::device, name});
 }
 
-/// A count is at most the number of casting triangles, whose volumes each count once.
-bool takes_stencil(const VolumeSettings& s, const VolumeCasters& casters)
+/// A count is at most the number of casting triangles, whose volumes each count once. It begins at 0, which along parallel rays it does not
+/// at infinity (count_at_eye).
+bool takes_stencil(const VolumeSettings& s, const VolumeCasters& casters, const scene::View& view)
 {
+    if (s.count == VolumeCount::zfail && view.orthographic) return false;
     const bool can = !s.transmittance && (s.count == VolumeCount::zpass || s.count == VolumeCount::zfail) && casters.triangles < 256;
     return can && s.counter == VolumeCounter::stencil && s.order == VolumeOrder::planes;
 }
@@ -42,7 +44,7 @@ public:
         , settings_(settings)
         , device_(passes.device())
         , counted_(frame.counters ? 1u : 0u)
-        , stencil_(takes_stencil(settings, casters))
+        , stencil_(takes_stencil(settings, casters, frame.view))
     {
         task_.view = view_constants(frame.view, frame.index);
         task_.light = light_constants(frame.light, frame.resources.bounds());
