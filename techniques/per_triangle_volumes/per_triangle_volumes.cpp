@@ -80,6 +80,7 @@ private:
         cast_all(0, solid, false);
         c.which = WHICH_ALL;
         if (params.mode != MODE_BINARY) {
+            c.cull = CULL_NONE; // a closed body of glass takes light away at either side
             if (solid_end_ < block_count_) make_sums(passes, tree, params, b);
             cast_all(solid_end_, block_count_, true);
         }

@@ -64,6 +64,19 @@ TEST_F(PerTriangleModes, ManyOrOpaquePanesAreDarkAndNothingWrapsAround)
     EXPECT_NEAR(double(red[1]), std::pow(0.98 * 0.98, 40), 1e-5);
 }
 
+/// A light ray crosses the glass of a closed body twice, although no triangle of it may be left out as of an opaque one.
+TEST_F(PerTriangleModes, CullingLeavesSemitransparentTrianglesAlone)
+{
+    scene::Scene s = floor_scene(4);
+    s.materials.push_back(blended(vec4(1, 1, 1, 0.4f)));
+    s.materials[1].double_sided = false;
+    add_mesh(s, box(), glm::translate(mat4(1), vec3(0, 3, 0)));
+    s.meshes[1].material = 1;
+    for (const double cull : {0.0, 1.0, 2.0})
+        expect_all(draw(s, gpu::camera_above({0, 0, 0}, 0.4f, 0.8f), {16, 16}, "sun,elevation=90,angle=0", {{"mode", rgb}, {"cull", cull}}),
+            vec3(0.36f), 1e-6);
+}
+
 TEST_F(PerTriangleModes, TheOrderOfTrianglesDoesNotChangeABit)
 {
     for (const double mode : {alpha, rgb, textured}) {
