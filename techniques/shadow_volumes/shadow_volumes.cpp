@@ -36,7 +36,7 @@ void describe(Params& p, Fields& fields)
         "is seen; those behind "
         "all receivers; those outside of the bands of the picture in which they may darken something; all of these. The picture is the "
         "same.");
-    fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands", "How many, with culling = clamp or all.");
+    fields.integer("bands", p.bands, {1, VOLUME_MAX_BANDS}, "bands", "How many, with culling = clamp or all; one where `order` is depth, since a face that is cut has other depths.");
 }
 
 enum class Culling : int { none, casters, max, clamp, all };
@@ -47,10 +47,11 @@ std::optional<parts::CulledVolumes> cull(gpu::PassList& passes, const Frame& fra
 {
     const auto by = Culling(params.culling);
     if (by == Culling::none || parts::VolumeCount(params.count) != parts::VolumeCount::zfail || frame.view.orthographic) return {};
+    const bool in_planes = parts::VolumeOrder(params.order) == parts::VolumeOrder::planes; // clipped, faces have other depths
     return parts::cull_volumes(passes, frame,
         {.casters = by == Culling::casters || by == Culling::all,
             .max = by == Culling::max || by == Culling::all,
-            .clamp = by == Culling::clamp || by == Culling::all,
+            .clamp = (by == Culling::clamp || by == Culling::all) && in_planes,
             .bands = params.bands});
 }
 

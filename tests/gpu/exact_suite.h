@@ -22,7 +22,7 @@ struct ExactSubject {
     std::vector<std::pair<const char*, double>> values;
     uint32_t first_soup = 0, soups = 50; ///< seeds of random scenes
 };
-inline void PrintTo(const ExactSubject& s, std::ostream* out) { *out << s.technique.id << " " << s.name; }
+inline std::ostream& operator<<(std::ostream& out, const ExactSubject& s) { return out << s.technique.id << " " << s.name; }
 inline std::string exact_name(const testing::TestParamInfo<ExactSubject>& info) { return info.param.name; }
 
 class ExactTest : public gpu::TechniqueTest {
@@ -78,7 +78,8 @@ protected:
             seen.own = size_t(ids[i]);
             seen.depth = drawn.depth[i];
             const Triangle& t = truth.triangles()[seen.own];
-            const scene::Ray ray = scene::view_ray(view, vec2(float(i % size_t(size.width)) + 0.5f, float(i / size_t(size.width)) + 0.5f));
+            const size_t column = i % size_t(size.width), row = i / size_t(size.width);
+            const scene::Ray ray = scene::view_ray(view, vec2(float(column), float(row)) + 0.5f);
             const dvec3 along(ray.direction), n = glm::normalize(HardTruth::normal(t));
             seen.p = dvec3(ray.origin) + glm::dot(n, t[0] - dvec3(ray.origin)) / glm::dot(n, along) * along;
             seen.facing = std::abs(glm::dot(n, along));
@@ -133,7 +134,7 @@ protected:
     /// Drawn twice: the same bits, all of them 0 or 1.
     static std::vector<float> expect_sane(const ExactSubject& t, const ExactCase& c, gpu::Size size)
     {
-        const std::vector<float> once = draw(t, c.scene, c.camera, size, c.light);
+        std::vector<float> once = draw(t, c.scene, c.camera, size, c.light);
         size_t odd = 0;
         for (const float v : once) odd += v != 0.0f && v != 1.0f;
         EXPECT_EQ(odd, 0u) << c.name << ": neither 0 nor 1";

@@ -23,7 +23,8 @@ public:
 
     dvec3 point(size_t pixel, float depth) const
     {
-        const double x = double(pixel % size_t(size_.width)) + 0.5, y = double(pixel / size_t(size_.width)) + 0.5;
+        const size_t column = pixel % size_t(size_.width), row = pixel / size_t(size_.width);
+        const double x = double(column) + 0.5, y = double(row) + 0.5;
         const glm::dvec4 p = world_from_clip_ * glm::dvec4(2 * x / size_.width - 1, 2 * y / size_.height - 1, double(depth), 1);
         return dvec3(p) / p.w;
     }

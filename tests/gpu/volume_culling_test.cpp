@@ -60,8 +60,9 @@ protected:
             instance_of.insert(instance_of.end(), s.meshes[size_t(s.instances[i].mesh)].indices.size() / 3, i);
         Loss loss;
         for (const Seen& seen : receivers(truth, s, camera, picture)) {
-            const auto [own, p, n, facing] = std::tuple(seen.own, seen.p, seen.n, seen.facing);
-            if (own == SIZE_MAX || facing < 0.02) continue;
+            if (seen.own == SIZE_MAX || seen.facing < 0.02) continue;
+            const size_t own = seen.own;
+            const dvec3 p = seen.p, n = seen.n;
             if (glm::dot(n, glm::normalize(truth.to_light(p))) < 1e-3 || !scene::reaches(light, vec3(p))) continue;
             bool dark = false, kept = false, all_kept = true;
             for (size_t t = 0; t < truth.triangles().size(); ++t) {
@@ -205,6 +206,11 @@ TEST_F(VolumeCullingTest, BandsFollowTheLight)
     EXPECT_EQ(shadow::parts::volume_bands(tiny, sun, 16).count, 1u);
     EXPECT_EQ(shadow::parts::volume_bands(view, sun, 1000).count, 32u);
     EXPECT_EQ(cull(s, tiny, sun, all).slots.size(), 1u);
+    scene::Scene empty;
+    empty.materials.emplace_back();
+    const scene::Camera ahead{.eye = {0, 0, 3}, .target = {0, 0, 0}};
+    for (const double way : {0., 1., 4.})
+        EXPECT_EQ(mean(TechniqueTest::draw(technique_shadow_volumes, empty, ahead, picture, "sun,elevation=40", {{"culling", way}})), 1);
 }
 
 /// none, casters, max, clamp, all

@@ -79,6 +79,10 @@ void VolumeCasters::update(SceneGpu& scene, bool blended)
         add_blocks(of_triangles, d.slot, 0, d.index_count / 3, flags);
         add_blocks(of_edges, d.slot, edges_of.ranges[d.mesh].first, edges_of.ranges[d.mesh].count, flags);
     }
+    const uint64_t limit = scene.device().limits().maxStorageBufferRange;
+    if (uint64_t(primitives) * 4 > limit)
+        base::fail("the scene '{}' places {} triangles, and a buffer of {} bytes has room for the sides of {}; place fewer",
+            scene.scene().name, primitives, limit, limit / 4);
     edges = make_buffer(scene, edges_of.all.edges, "volume edges");
     lists = make_buffer(scene, edges_of.all.list, "triangles at edges");
     triangle_blocks = make_buffer(scene, of_triangles, "blocks of triangles");

@@ -133,13 +133,13 @@ CulledVolumes cull_volumes(gpu::PassList& passes, const Frame& frame, const Volu
         windows = built.image;
     }
     const gpu::SpecConstant ways[] = {{0, uint32_t(culling.max)}, {1, uint32_t(culling.clamp || !culling.max)}};
-    const uint32_t row = std::min(constants.slots, 1u << 15); // half of the groups that every device runs along an axis
+    const uint32_t row = std::clamp(constants.slots, 1u, 1u << 15); // half of the groups that every device runs along an axis
     passes.compute({.name = "cull volumes",
         .program = &passes.device().compute_program("src/shadow/parts/volume_casters.comp", ways),
         .bindings = {{passes.import(scene.casters()), gpu::Use::load}, {mask, gpu::Use::load}, {out.slots, gpu::Use::update},
             gpu::Binding(windows, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
         .constants = constants,
-        .threads = {row * VOLUME_CULL_GROUP, (constants.slots + row - 1) / std::max(row, 1u), 1}});
+        .threads = {row * VOLUME_CULL_GROUP, (constants.slots + row - 1) / row, 1}});
     if (!frame.counters) return out;
     const gpu::BufferId counts = make_buffer(passes, 2, "culled volumes");
     passes.compute({.name = "count culled",

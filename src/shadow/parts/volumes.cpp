@@ -75,6 +75,9 @@ public:
                                          : VK_FORMAT_R32_SFLOAT;
         const VolumeCounts out{list_receivers(), image(format, "volume counts"), eye_, stencil_};
         if (settings_.decided && !stencil_ && settings_.order == VolumeOrder::planes) undecided_ = draw_undecided();
+        // scenes may have no caster
+        if (casters_.edge_block_count == 0) passes_.fill(quads_, 0, "no quads");
+        if (casters_.triangle_block_count == 0) passes_.fill(caps_, 0, "no caps");
         find_sides();
         if (settings_.count == VolumeCount::pp_zp) count_at_eye("volumes at the eye");
         if (settings_.count == VolumeCount::zfail && frame_.view.orthographic && !task_.along_view) count_at_eye("volumes at infinity");
