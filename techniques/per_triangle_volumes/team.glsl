@@ -52,11 +52,9 @@ uvec2 team_first(uvec2 value) { return uvec2(team_first(value.x), team_first(val
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-// 0: all of the subgroup. Fewer only show that any number will do.
-layout(constant_id = 0) const uint LANES = 0;
 #define TEAMS_A_GROUP 32
 #define TEAM_BARRIER subgroupMemoryBarrierShared()
-#define team_lanes (LANES == 0 ? gl_SubgroupSize : LANES)
+#define team_lanes gl_SubgroupSize
 uint team_lane() { return gl_SubgroupInvocationID; }
 uint team_in_group() { return gl_SubgroupID; }
 uint team_index() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_NumSubgroups + gl_SubgroupID; }
