@@ -50,15 +50,18 @@ std::string draw_front(const Comparison& comparison, const std::string& light, s
     for (const Run& run : comparison.runs)
         if (run.light == light && run.skipped.empty()) runs.push_back(&run);
     const std::vector<const Run*> best = front(runs);
+    // an exact technique has no place on a logarithmic axis
+    const auto point = [](const Run* run) {
+        return PlotPoint{"", run->technique_ms, std::max(run->metrics.at("mae"), 1e-6), 0, run->name};
+    };
     PlotSeries line{"front", 0, 0, true, {}}, rest{"others", 6, 0, false, {}};
-    for (const Run* run : best) line.points.push_back({"", run->technique_ms, run->metrics.at("mae"), 0, run->name});
+    for (const Run* run : best) line.points.push_back(point(run));
     for (const Run* run : runs)
-        if (std::find(best.begin(), best.end(), run) == best.end())
-            rest.points.push_back({"", run->technique_ms, run->metrics.at("mae"), 0, run->name});
+        if (std::find(best.begin(), best.end(), run) == best.end()) rest.points.push_back(point(run));
     PlotSpec spec;
     spec.file = fmt::format("front.{}", number + 1);
     spec.title = fmt::format("Mean absolute error over milliseconds, {}", light);
-    spec.x_label = "ms", spec.y_label = "mean absolute error", spec.log_x = spec.log_y = true;
+    spec.x_label = "ms", spec.y_label = "mean absolute error, 1e-6 at least", spec.log_x = spec.log_y = true;
     const fs::path file = folder / (spec.file + ".svg");
     refused = draw_series(spec, {line, rest}, file);
     return refused.empty() ? base::read_text(file) : "";
