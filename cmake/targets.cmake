@@ -56,3 +56,13 @@ function(gnomon_techniques)
   # Back again for the linker alone: technique() in the one looks through the list in the other.
   target_link_libraries(gnomon_shadow INTERFACE gnomon_techniques)
 endfunction()
+
+# A text file as `inline constexpr std::string_view <name>` in the generated header <name>.h.
+function(gnomon_embed_text target file name)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${file})
+  file(READ ${CMAKE_SOURCE_DIR}/${file} text)
+  # compilers take literals of 64 KiB at most, and join neighbours
+  string(REGEX REPLACE "\n" "\n)text\"\nR\"text(" text "${text}")
+  file(WRITE ${CMAKE_BINARY_DIR}/generated/${name}.h.new "#pragma once\n#include <string_view>\ninline constexpr std::string_view ${name} = R\"text(${text})text\";\n")
+  file(COPY_FILE ${CMAKE_BINARY_DIR}/generated/${name}.h.new ${CMAKE_BINARY_DIR}/generated/${name}.h ONLY_IF_DIFFERENT)
+endfunction()

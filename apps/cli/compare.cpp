@@ -30,7 +30,8 @@ int compare(const Compare& options)
         return 0;
     }
     fmt::print("{}, {}\n{}", comparison.device, comparison.driver, lab::results_table(comparison));
-    fmt::print("pictures, error maps (red: too light, blue: too dark) and results.json are in {}\n", folder.string());
+    fmt::print(
+        "open {} for pictures beside the truth; results.json and results.csv are in the same folder\n", (folder / "index.html").string());
     return 0;
 }
 

@@ -149,7 +149,7 @@ int run(int argc, char** argv)
         ->required();
     compare_app->add_option("--reference", compare.reference,
         "A technique, with parameters after colons, that filtering is measured against: adds filter_mae and the like");
-    compare_app->add_option("-o,--output", compare.output, "Folder for pictures and results.json (default: out/compare-SCENE)");
+    compare_app->add_option("-o,--output", compare.output, "Folder for the page, pictures and results (default: out/compare-SCENE)");
     compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();

@@ -69,9 +69,9 @@ public:
         if (std::all_of(out_.runs.begin(), out_.runs.end(), [](const Run& r) { return !r.skipped.empty(); }))
             base::fail("no technique ran: {}", out_.runs.front().skipped);
         if (!options_.folder.empty()) {
-            const std::filesystem::path path = options_.folder / "results.json";
-            base::write_text(path, results_json(out_).dump(1) + "\n");
-            out_.files.push_back(path);
+            write_text("results.json", results_json(out_).dump(1) + "\n");
+            write_text("results.csv", results_csv(out_));
+            write_text("index.html", report_page(out_, options_.folder));
         }
         return std::move(out_);
     }
@@ -110,26 +110,36 @@ private:
         base::Picture& truth_lit = truth_lit_[truth_quantity(choice)];
         if (truth_lit.empty()) {
             truth_lit = display(shade_with(device_, scene_, stage_, {truth.visibility.mean}, {}), stage_);
-            write("truth", truth_lit, base::Encoding::srgb);
-            write("truth.visibility", truth.visibility.mean, base::Encoding::linear);
+            out_.truths.push_back({light_, truth_quantity(choice),
+                {{"lit", write("truth", truth_lit, base::Encoding::srgb)},
+                    {"visibility", write("truth.visibility", truth.visibility.mean, base::Encoding::linear)}}});
         }
         const base::Picture lit = display(rendered.radiance, stage_);
         run.metrics["flip"] = metrics::flip(lit, truth_lit, &flip_map);
         add_times(run, rendered);
-        write(run.technique, lit, base::Encoding::srgb);
-        write(run.technique + ".visibility", judged_channels(rendered.images.front(), 1), base::Encoding::linear);
-        write(run.technique + ".error", heat_map, base::Encoding::linear);
+        run.quantity = truth_quantity(choice);
+        run.pictures = {{"lit", write(run.technique, lit, base::Encoding::srgb)},
+            {"visibility", write(run.technique + ".visibility", judged_channels(rendered.images.front(), 1), base::Encoding::linear)},
+            {"error", write(run.technique + ".error", heat_map, base::Encoding::linear)}};
     }
 
-    void write(const std::string& name, const base::Picture& picture, base::Encoding encoding)
+    void write_text(const char* name, const std::string& text)
     {
-        if (options_.folder.empty()) return;
+        out_.files.push_back(options_.folder / name);
+        base::write_text(out_.files.back(), text);
+    }
+
+    /// The file's name.
+    std::string write(const std::string& name, const base::Picture& picture, base::Encoding encoding)
+    {
+        if (options_.folder.empty()) return {};
         // two settings of one technique must not share a file
         std::string file = file_name(light_) + "." + name;
         for (int n = 2; std::find(out_.files.begin(), out_.files.end(), options_.folder / (file + ".png")) != out_.files.end(); ++n)
             file = fmt::format("{}.{}.{}", file_name(light_), name, n);
         out_.files.push_back(options_.folder / (file + ".png"));
         base::write_png(out_.files.back(), picture, encoding);
+        return file + ".png";
     }
 
     gpu::Device& device_;

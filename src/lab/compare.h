@@ -24,9 +24,15 @@ struct CompareOptions {
     std::filesystem::path truth_cache; ///< empty = the user's cache
 };
 
+/// Files in the folder of a comparison: "lit", "visibility" and, of techniques, "error".
+using Pictures = std::map<std::string, std::string>;
+
 /// One technique under one light, measured against truth. docs/results.md describes its JSON.
 struct Run {
     std::string technique, scene, camera, light;
+    std::string name; ///< choice_text
+    truth::Quantity quantity = truth::Quantity::visibility; ///< of the truth that judges it
+    Pictures pictures;
     base::Size size;
     std::string params; ///< JSON text
     std::vector<PassStats> passes;
@@ -43,10 +49,18 @@ struct Run {
     std::string skipped; ///< the reason why this technique did not run here; the rest is then empty
 };
 
+/// What the runs under one light are judged by.
+struct TruthPictures {
+    std::string light;
+    truth::Quantity quantity;
+    Pictures pictures;
+};
+
 struct Comparison {
     std::string device, driver, commit;
     std::vector<Run> runs;
-    std::vector<std::filesystem::path> files; ///< written pictures, results.json last
+    std::vector<TruthPictures> truths;
+    std::vector<std::filesystem::path> files; ///< written: pictures, results.json, results.csv, index.html last
 };
 
 /// Renders, traces, measures and writes. Techniques that refuse the device or the light are listed as skipped; if every one is,
@@ -95,6 +109,11 @@ std::string unmeasurable(const Choice&, const gpu::Device&, const scene::Light&)
 nlohmann::ordered_json run_json(const Run&);
 nlohmann::ordered_json results_json(const Comparison&);
 std::string results_table(const Comparison&); ///< for a terminal
+std::string results_csv(const Comparison&); ///< a line a run: who, where, metrics, times, bytes
+
+/// A page that holds numbers, plots and pictures of a comparison whose pictures are in `folder`, as one file to be opened from disk.
+/// Draws the plots there, error over time for each light, with its front (what nothing else beats in both).
+std::string report_page(const Comparison&, const std::filesystem::path& folder);
 
 /// The commit this program was built from, "unknown" outside a checkout.
 std::string_view commit();

@@ -13,6 +13,7 @@ namespace gnomon::lab {
 struct PlotPoint {
     std::string label; ///< x as text, where it has words
     double x, y, deviation; ///< x: not a number where it has words
+    std::string note{}; ///< written beside the mark
 };
 
 struct PlotSeries {

@@ -75,6 +75,7 @@ void score_filter(const FilterReference& filter, base::Picture test, const std::
 Run new_run(const Stage& stage, const Choice& choice, const std::string& light)
 {
     Run run;
+    run.name = choice_text(choice);
     run.technique = choice.info->id, run.scene = stage.scene_name, run.camera = stage.camera.name, run.light = light;
     run.size = stage.view.size, run.params = choice.params.json().dump();
     return run;

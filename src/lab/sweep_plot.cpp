@@ -147,12 +147,17 @@ std::string script(const PlotSpec& plot, const std::vector<PlotSeries>& series, 
         out += fmt::format("$d{} << EOD\n", i);
         for (const PlotPoint& p : series[i].points) {
             const double group = double(std::find(labels.begin(), labels.end(), p.label) - labels.begin());
-            out += fmt::format("{} {} {}\n", words ? group + (double(i) + 0.5) * width - 0.4 : p.x, p.y, p.deviation);
+            out += fmt::format("{} {} {} {}\n", words ? group + (double(i) + 0.5) * width - 0.4 : p.x, p.y, p.deviation,
+                p.note.empty() ? "" : text(p.note));
         }
         out += "EOD\n";
     }
     for (size_t i = 0; i < series.size(); ++i)
         out += fmt::format("{} $d{} {} title {}", i ? "," : "plot", i, style(series[i], words), text(series[i].name));
+    for (size_t i = 0; i < series.size(); ++i)
+        if (std::any_of(series[i].points.begin(), series[i].points.end(), [](const PlotPoint& p) { return !p.note.empty(); }))
+            out += fmt::format(",$d{} using 1:2:4 with labels left offset 0.8,0.3 font ',11' tc '{}' notitle", i,
+                colors[series[i].color % std::size(colors)]);
     return out + "\n";
 }
 

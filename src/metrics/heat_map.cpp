@@ -117,6 +117,17 @@ void draw_legend(base::Picture& p, int top, float range)
 
 } // namespace
 
+std::vector<std::string> heat_map_colors()
+{
+    std::vector<std::string> out;
+    for (int i = -3; i <= 3; ++i) {
+        const Rgb c = color(float(i) / 3.0f);
+        const auto byte = [](float v) { return int(std::lround(v * 255.0f)); };
+        out.push_back(fmt::format("#{:02x}{:02x}{:02x}", byte(c[0]), byte(c[1]), byte(c[2])));
+    }
+    return out;
+}
+
 base::Picture signed_heat_map(const Comparison& c, float range)
 {
     if (!(range > 0.0f)) base::fail("the range of a heat map must be above 0, not {}", range);

@@ -61,5 +61,6 @@ double flip(const base::Picture& test, const base::Picture& truth, base::Picture
 /// Signed error test - truth as a picture to look at: blue = too dark (false shadow), white = equal, red = too light (leak), grey
 /// = not scored; with a legend strip below. Display colours: write with Encoding::linear.
 base::Picture signed_heat_map(const Comparison&, float range = 1.0f);
+std::vector<std::string> heat_map_colors(); ///< "#rrggbb" of its ramp, from too dark to too light, at even steps
 
 } // namespace gnomon::metrics
