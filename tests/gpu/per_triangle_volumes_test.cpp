@@ -15,7 +15,7 @@ extern const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes;
 namespace gnomon {
 namespace {
 
-const ExactSubject plain{technique_per_triangle_volumes, "plain", {}};
+const ExactSubject plain{technique_per_triangle_volumes, "plain", {}, 0, 200};
 const ExactSubject shared_memory{technique_per_triangle_volumes, "shared_memory", {{"team", 1}}, 50, 10};
 const ExactSubject blockers{technique_per_triangle_volumes, "blockers", {{"blockers", 1}, {"blocker_size", 0.01}, {"queue", 7}}, 60, 10};
 INSTANTIATE_TEST_SUITE_P(per_triangle_volumes, ExactSoups, testing::Values(plain, shared_memory, blockers), exact_name);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double zfail = 1, zp_plus = 2, pp_zp = 3;
 
-const ExactSubject by_zfail{technique_shadow_volumes, "zfail", {{"count", zfail}}, 0, 60};
-const ExactSubject by_pp_zp{technique_shadow_volumes, "pp_zp", {{"count", pp_zp}}, 60, 30};
+const ExactSubject by_zfail{technique_shadow_volumes, "zfail", {{"count", zfail}}, 0, 200};
+const ExactSubject by_pp_zp{technique_shadow_volumes, "pp_zp", {{"count", pp_zp}}, 0, 200};
 const ExactSubject by_zp_plus{technique_shadow_volumes, "zp_plus", {{"count", zp_plus}}, 90, 30};
 
 } // namespace
