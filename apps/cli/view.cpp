@@ -24,8 +24,9 @@ int view(const View& options)
 #else
 int view(const View&)
 {
-    base::fail("this gnomon was built without its window; install GLFW and Dear ImGui (Debian: apt-get install libglfw3-dev libimgui-dev) and "
-               "build it again, or make pictures with `gnomon render`");
+    base::fail(
+        "this gnomon was built without its window; install GLFW and Dear ImGui (Debian: apt-get install libglfw3-dev libimgui-dev) and "
+        "build it again, or make pictures with `gnomon render`");
 }
 #endif
 

@@ -64,11 +64,13 @@ public:
     {
         while (!window_.closing() && !panels_.quit) {
             window_.wait(patience());
-            if (window_.events() != events_) events_ = window_.events(), frames_due_ = settle;
-            if (session_.truth_moved()) frames_due_ = std::max(frames_due_, 1);
-            for (const std::string& file : window_.dropped()) session_.attempt([&] { session_.open(file); });
+            notice();
             if (frames_due_ <= 0 || window_.pixels().area() == 0) continue;
+            write_state(false);
             frame();
+            window_.wait(0); // so that the state is not called idle while there are events
+            notice();
+            write_state(frames_due_ <= 0 && !viewport_.moving());
         }
         swapchain_.wait();
         const auto& errors = device_->validation_errors();
@@ -87,12 +89,19 @@ private:
         return ImGui::GetIO().WantTextInput ? 0.25 : -1; // a text cursor blinks
     }
 
+    void notice()
+    {
+        if (window_.events() != events_) events_ = window_.events(), frames_due_ = settle;
+        if (session_.truth_moved()) frames_due_ = std::max(frames_due_, 1);
+        for (const std::string& file : window_.dropped()) session_.attempt([&] { session_.open(file); });
+    }
+
     void frame()
     {
         const auto now = Clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
-        --frames_due_;
+        --frames_due_, ++frames_;
         swapchain_.wait(); // the pictures and buffers of the last frame are free again
         ImGui_ImplGlfw_NewFrame();
         ImGui::NewFrame();
@@ -100,12 +109,12 @@ private:
         draw_panels(panels_, session_);
         viewport_.input(panels_, session_, window_.pressed(), seconds);
         ImGui::Render();
+        window_.typing(ImGui::GetIO().WantTextInput);
         session_.attempt([&] { session_.update(viewport_.moving()); });
         if (viewport_.flying()) frames_due_ = std::max(frames_due_, 1);
         if (!swapchain_.present(window_.pixels(), [&](gpu::PassList& passes, gpu::ImageId target) { draw_ui(passes, target); }))
             frames_due_ = std::max(frames_due_, 1);
         serve();
-        if (!options_.state.empty()) write_state();
     }
 
     void draw_ui(gpu::PassList& passes, gpu::ImageId target)
@@ -147,16 +156,17 @@ private:
         session_.say("wrote " + file.string());
     }
 
-    void write_state()
+    void write_state(bool idle)
     {
+        if (options_.state.empty()) return;
         const float* r = viewport_.rectangle();
         nlohmann::ordered_json json = {{"technique", lab::choice_text(session_.left)}, {"camera", session_.camera_words()},
             {"lights", session_.light_words()}, {"show", show_names()[session_.look.show]}, {"split", session_.look.split},
             {"against", int(session_.against)}, {"truth_samples", session_.truth_samples()}, {"truth_finished", session_.truth_finished()},
-            {"message", session_.message.text}, {"error", session_.standing_error()}, {"draw_ms", session_.draw_ms},
-            {"frames", ++frames_}, {"coarse", session_.coarse()}, {"help", panels_.help}, {"command", session_.command()},
+            {"message", session_.message.text}, {"error", session_.standing_error()}, {"draw_ms", session_.draw_ms}, {"frames", frames_},
+            {"coarse", session_.coarse()}, {"help", panels_.help}, {"command", session_.command()},
             {"window", {swapchain_.size().width, swapchain_.size().height}}, {"picture", {int(r[0]), int(r[1]), int(r[2]), int(r[3])}},
-            {"idle", frames_due_ <= 0 && !viewport_.moving()}, {"places", panels_.places}, {"times", session_.times}};
+            {"idle", idle}, {"places", panels_.places}, {"times", session_.times}};
         session_.attempt([&] { base::write_text(options_.state, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace)); });
     }
 

@@ -30,7 +30,9 @@ void against_combo(Panels& panels, Session& session)
     panels.mark("beside");
     if (session.against == Against::truth) {
         const int samples = session.truth_samples();
-        ImGui::TextDisabled(samples == 0 ? "tracing ..." : session.truth_finished() ? "%d samples a pixel" : "%d samples a pixel, more to come",
+        ImGui::TextDisabled(samples == 0   ? "tracing ..."
+                : session.truth_finished() ? "%d samples a pixel"
+                                           : "%d samples a pixel, more to come",
             samples);
     } else if (session.against == Against::technique) {
         ImGui::TextDisabled("%s", lab::choice_text(session.right).c_str());

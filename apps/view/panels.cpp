@@ -44,10 +44,7 @@ void technique_section(Panels& panels, Session& session)
 
 namespace {
 
-bool section(const char* name, bool open)
-{
-    return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
+bool section(const char* name, bool open) { return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0); }
 
 void top_line(const Session& session)
 {
@@ -109,12 +106,14 @@ void draw_messages(Panels& panels, Session& session)
 void draw_help(Panels& panels)
 {
     static constexpr const char* lines[][2] = {{"left drag", "turn around the target"}, {"right drag", "look around"},
-        {"middle drag, shift + left drag", "slide across the view"}, {"wheel", "nearer, farther"}, {"W A S D, Q E", "fly; with shift ten times as fast"},
+        {"middle drag, shift + left drag", "slide across the view"}, {"wheel", "nearer, farther"},
+        {"W A S D, Q E", "fly; with shift ten times as fast"},
         {"L + left drag", "turn the sun, or move the light across the view (with shift: along it)"}, {"drag the line", "move the split"},
-        {"T", "split: truth on the right, or nothing"}, {"X", "error map"}, {"V", "visibility"}, {"Page up, Page down", "previous, next technique"},
-        {"G, K, M", "wireframe, layers of the light map, the map itself"}, {"Home", "the scene's first camera"}, {"P, O", "screenshot of the picture, of the window"},
-        {"C", "copy the command line that renders this view"}, {"R", "recompile changed shaders"}, {"F9", "load the scene again"}, {"Tab", "hide the panel"},
-        {"Esc", "close this, or the message"}, {"Ctrl + Q", "quit"}};
+        {"T", "split: truth on the right, or nothing"}, {"X", "error map"}, {"V", "visibility"},
+        {"Page up, Page down", "previous, next technique"}, {"G, K, M", "wireframe, layers of the light map, the map itself"},
+        {"Home", "the scene's first camera"}, {"P, O", "screenshot of the picture, of the window"},
+        {"C", "copy the command line that renders this view"}, {"R", "recompile changed shaders"}, {"F9", "load the scene again"},
+        {"Tab", "hide the panel"}, {"Esc", "close this, or the message"}, {"Ctrl + Q", "quit"}};
     ImGui::Begin("Keys and mouse", &panels.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const auto& line : lines) {
@@ -140,7 +139,8 @@ void times_section(Panels&, Session& session)
     }
     ImGui::Text("%8.2f ms", sum);
     ImGui::SameLine();
-    ImGui::TextDisabled("on the device; %.1f ms in all, %.1f a second", session.draw_ms, session.draw_ms > 0 ? 1000.0 / session.draw_ms : 0.0);
+    ImGui::TextDisabled(
+        "on the device; %.1f ms in all, %.1f a second", session.draw_ms, session.draw_ms > 0 ? 1000.0 / session.draw_ms : 0.0);
 }
 
 } // namespace gnomon::view

@@ -70,11 +70,11 @@ bool Picture::draw(const Wish& wish)
     bool drawn = left_.draw(device_, scene_, receivers_, wish.stage, wish.left, wish.ambient,
         fmt::format("{} {} {} {} {}", common, lab::choice_text(wish.left), wish.footprint, wish.layers, wish.insets), &overlays_);
     if (left_.error.empty() && overlays_.layer_count == 0 && (wish.footprint || wish.layers || wish.insets))
-        left_.error = fmt::format("{} looks its shadows up in no light map that could be shown; choose another picture or overlay",
-            wish.left.info->id);
+        left_.error = fmt::format(
+            "{} looks its shadows up in no light map that could be shown; choose another picture or overlay", wish.left.info->id);
     if (wish.right)
-        drawn |= right_.draw(device_, scene_, receivers_, wish.stage, *wish.right, wish.ambient,
-            common + " " + lab::choice_text(*wish.right), nullptr);
+        drawn |= right_.draw(
+            device_, scene_, receivers_, wish.stage, *wish.right, wish.ambient, common + " " + lab::choice_text(*wish.right), nullptr);
     else if (wish.against_truth)
         drawn |= draw_truth(wish, common);
     return drawn || moved;

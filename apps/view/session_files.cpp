@@ -43,7 +43,8 @@ void Session::load_preset(const fs::path& file)
         technique(id);
         left = choice;
     } catch (const nlohmann::json::exception& e) {
-        base::fail("'{}' is no preset, which is an object with technique and parameters ({}); save one to see its form", file.string(), e.what());
+        base::fail(
+            "'{}' is no preset, which is an object with technique and parameters ({}); save one to see its form", file.string(), e.what());
     } catch (const base::Error& e) {
         base::fail("preset '{}': {}", file.string(), e.what());
     }

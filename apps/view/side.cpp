@@ -72,8 +72,8 @@ std::vector<gpu::PassTime> Receivers::draw(gpu::Device& device, shadow::SceneGpu
 {
     gpu::PassList passes(device);
     const shadow::GBuffer g = shadow::draw_gbuffer(passes, scene, view);
-    const std::pair<gpu::ImageId, gpu::Image*> kept[] = {
-        {g.depth, &depth}, {g.normal, &normal}, {g.primitive, &primitive}, {g.albedo, &albedo}, {g.surface, &surface}, {g.emissive, &emissive}};
+    const std::pair<gpu::ImageId, gpu::Image*> kept[] = {{g.depth, &depth}, {g.normal, &normal}, {g.primitive, &primitive},
+        {g.albedo, &albedo}, {g.surface, &surface}, {g.emissive, &emissive}};
     for (const auto& [id, image] : kept) {
         if (!id) continue;
         const gpu::ImageDesc desc = passes.desc(id);
@@ -134,8 +134,7 @@ void Side::record(gpu::Device& device, shadow::SceneGpu& scene, Receivers& recei
 {
     make_techniques(device, stage, choice);
     std::vector<VkFormat> formats;
-    for (const scene::Light& light : stage.lights)
-        formats.push_back(shadow::output_format(*choice.info, choice.params.bytes(), light));
+    for (const scene::Light& light : stage.lights) formats.push_back(shadow::output_format(*choice.info, choice.params.bytes(), light));
     fit(device, stage, formats);
     gpu::PassList passes(device);
     const shadow::GBuffer g = receivers.import(passes);

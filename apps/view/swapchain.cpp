@@ -14,9 +14,8 @@ Swapchain::Swapchain(gpu::Device& device, VkSurfaceKHR surface)
     , surface_(surface)
 {
     const PFN_vkGetInstanceProcAddr get = gpu::system_loader();
-    const auto load = [&](auto& f, const char* name) {
-        f = reinterpret_cast<std::remove_reference_t<decltype(f)>>(get(device.instance(), name));
-    };
+    const auto load
+        = [&](auto& f, const char* name) { f = reinterpret_cast<std::remove_reference_t<decltype(f)>>(get(device.instance(), name)); };
     load(surface_vk_.destroy, "vkDestroySurfaceKHR");
     load(surface_vk_.support, "vkGetPhysicalDeviceSurfaceSupportKHR");
     load(surface_vk_.capabilities, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
@@ -112,7 +111,7 @@ bool Swapchain::make(base::Size window)
     info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     info.preTransform = most.currentTransform;
     info.compositeAlpha = most.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-                                                                                          : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+                                                                                           : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
     info.clipped = VK_TRUE;
     drop();
@@ -123,8 +122,8 @@ bool Swapchain::make(base::Size window)
     check(vk_.vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images.data()), "vkGetSwapchainImagesKHR");
     size_ = {int(extent.width), int(extent.height)};
     for (const VkImage image : images) {
-        images_.push_back(device_.adopt_image(
-            image, {format_.format, size_, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "window"}, VK_IMAGE_LAYOUT_UNDEFINED));
+        images_.push_back(
+            device_.adopt_image(image, {format_.format, size_, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "window"}, VK_IMAGE_LAYOUT_UNDEFINED));
         drawn_.push_back(semaphore());
     }
     return true;
@@ -145,8 +144,7 @@ bool Swapchain::present(base::Size window, const Draw& draw)
     if (window.area() == 0) return false;
     if ((!handle_ || size_ != window) && !make(window)) return false;
     uint32_t index = 0;
-    const VkResult acquired
-        = vk_.vkAcquireNextImageKHR(device_.handle(), handle_, ~uint64_t(0), acquired_, VK_NULL_HANDLE, &index);
+    const VkResult acquired = vk_.vkAcquireNextImageKHR(device_.handle(), handle_, ~uint64_t(0), acquired_, VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
         wait_and_drop();
         return false;

@@ -40,8 +40,7 @@ void draw(gpu::Encoder& encoder, const ImDrawData& data, base::Size size, const 
             if (x1 <= x0 || y1 <= y0 || command.UserCallback) continue;
             encoder.scissor(x0, y0, uint32_t(x1 - x0), uint32_t(y1 - y0));
             const uint32_t fill = uint32_t(reinterpret_cast<uintptr_t>(command.TextureId));
-            encoder.draw_indexed(
-                command.ElemCount, 1, first_index + command.IdxOffset, first_vertex + int32_t(command.VtxOffset), fill);
+            encoder.draw_indexed(command.ElemCount, 1, first_index + command.IdxOffset, first_vertex + int32_t(command.VtxOffset), fill);
         }
         first_index += uint32_t(list.IdxBuffer.Size), first_vertex += list.VtxBuffer.Size;
     }

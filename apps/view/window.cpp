@@ -17,8 +17,12 @@ struct WindowCallbacks {
     template <class... Args> static void count(GLFWwindow* window, Args...) { ++of(window).events_; }
     static void key(GLFWwindow* window, int key, int, int action, int mods)
     {
-        ++of(window).events_;
+        if (action != GLFW_REPEAT || of(window).typing_) ++of(window).events_;
         if (action == GLFW_PRESS) of(window).pressed_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0});
+    }
+    static void character(GLFWwindow* window, unsigned)
+    {
+        if (of(window).typing_) ++of(window).events_;
     }
     static void drop(GLFWwindow* window, int files, const char** names)
     {
@@ -52,7 +56,7 @@ Window::Window(const std::string& title, base::Size size)
     glfwSetWindowUserPointer(window_, this);
     glfwSetWindowSizeLimits(window_, 320, 200, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSetKeyCallback(window_, WindowCallbacks::key);
-    glfwSetCharCallback(window_, WindowCallbacks::count<unsigned>);
+    glfwSetCharCallback(window_, WindowCallbacks::character);
     glfwSetMouseButtonCallback(window_, WindowCallbacks::count<int, int, int>);
     glfwSetCursorPosCallback(window_, WindowCallbacks::count<double, double>);
     glfwSetCursorEnterCallback(window_, WindowCallbacks::count<int>);
@@ -78,7 +82,8 @@ VkSurfaceKHR Window::surface(VkInstance instance) const
     if (result != VK_SUCCESS) {
         const char* text = nullptr;
         glfwGetError(&text);
-        base::fail("the device cannot show pictures in a window ({}: {}); choose another with --device, or make pictures with `gnomon render`",
+        base::fail(
+            "the device cannot show pictures in a window ({}: {}); choose another with --device, or make pictures with `gnomon render`",
             gpu::result_name(result), text ? text : "no reason was given");
     }
     return surface;

@@ -40,12 +40,14 @@ public:
     void wait(double seconds);
     static void wake(); ///< from any thread: ends a wait
     uint64_t events() const { return events_; } ///< keys, buttons, moves, sizes ... so far
+    void typing(bool on) { typing_ = on; } ///< whether characters and the repeats of a held key are events
     std::vector<std::string> dropped(); ///< files, since the last call
     std::vector<Key> pressed(); ///< since the last call
 
 private:
     GLFWwindow* window_ = nullptr;
     uint64_t events_ = 0;
+    bool typing_ = false;
     std::vector<std::string> dropped_;
     std::vector<Key> pressed_;
     friend struct WindowCallbacks;

@@ -21,11 +21,10 @@ void nap(double seconds) { std::this_thread::sleep_for(std::chrono::duration<dou
 
 } // namespace
 
-std::string no_windows()
+std::string no_windows(const Scratch& scratch)
 {
     for (const char* program : {"Xvfb", "xdotool"})
         if (!there(program)) return std::string(program) + " is not installed (Debian: xvfb, xdotool)";
-    const Scratch scratch;
     const Finished tried = run_gnomon({"view", "plane"}, scratch.folder(), {.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
     return tried.err.find("built without its window") == std::string::npos ? "" : "gnomon was built without its window";
 }
@@ -62,9 +61,11 @@ Viewer::Viewer(const Scratch& scratch, std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "view");
     for (const char* word : {"--state", "state.json", "--validation"}) arguments.emplace_back(word);
-    const RunOptions options{.environment = {{"DISPLAY", display_.name()}, {"WAYLAND_DISPLAY", ""}}, .seconds = 240};
+    const RunOptions options{
+        .environment = {{"DISPLAY", display_.name()}, {"WAYLAND_DISPLAY", ""}, {"XDG_RUNTIME_DIR", folder_}}, .seconds = 240};
     run_ = std::async(std::launch::async, [=, folder = folder_] { return run_gnomon(arguments, folder, options); });
-    wait("the window's first picture", [](const Json& s) { return s.value("idle", false); }, 120);
+    wait(
+        "the window's first picture", [](const Json& s) { return s.value("idle", false); }, 120);
 }
 
 Viewer::~Viewer()
@@ -133,7 +134,8 @@ void Viewer::drag(int x, int y, int by_x, int by_y) const
 {
     const Json p = state()["picture"];
     x += p[0].get<int>(), y += p[1].get<int>();
-    const auto at = [&](int part) { return " mousemove " + std::to_string(x + by_x * part / 4) + " " + std::to_string(y + by_y * part / 4); };
+    const auto at
+        = [&](int part) { return " mousemove " + std::to_string(x + by_x * part / 4) + " " + std::to_string(y + by_y * part / 4); };
     tool(at(0) + " sleep 0.3 mousedown 1 sleep 0.3" + at(1) + " sleep 0.2" + at(2) + " sleep 0.2" + at(4) + " sleep 0.4 mouseup 1");
     settled();
 }

@@ -15,7 +15,7 @@
 namespace gnomon::tests {
 
 /// Why windows cannot be tested here; "" = they can.
-std::string no_windows();
+std::string no_windows(const Scratch&);
 
 /// Its own X server for as long as it lives.
 class Display {

@@ -16,7 +16,7 @@ class View : public testing::Test {
 protected:
     void SetUp() override
     {
-        const std::string reason = no_windows();
+        const std::string reason = no_windows(scratch);
         if (!reason.empty()) GTEST_SKIP() << reason;
     }
     Scratch scratch;
@@ -47,7 +47,7 @@ std::vector<std::string> words_of(const std::string& line)
 
 TEST_F(View, WithoutADisplayASentenceNamesTheNextStep)
 {
-    const RunOptions none{.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}};
+    const RunOptions none{.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"XDG_RUNTIME_DIR", scratch.folder()}}};
     expect_sentence(run_gnomon({"view", "plane"}, scratch.folder(), none), 1, {"display", "xvfb-run", "gnomon render"});
 }
 
