@@ -129,8 +129,9 @@ private:
         if (panels_.screenshot && !viewport_.moving())
             session_.attempt([&] { session_.say("wrote " + session_.screenshot(panels_.screenshot_file).string()); });
         if (panels_.window_screenshot) session_.attempt([&] { screenshot_window(); });
-        if (panels_.copy || panels_.screenshot || panels_.window_screenshot) frames_due_ = settle;
-        panels_.copy = panels_.screenshot = panels_.window_screenshot = false;
+        if (panels_.reload) session_.attempt([&] { session_.say(session_.reload_shaders()); });
+        if (panels_.copy || panels_.screenshot || panels_.window_screenshot || panels_.reload) frames_due_ = settle;
+        panels_.copy = panels_.screenshot = panels_.window_screenshot = panels_.reload = false;
     }
 
     void copy_command()

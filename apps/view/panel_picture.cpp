@@ -30,10 +30,8 @@ void against_combo(Panels& panels, Session& session)
     panels.mark("beside");
     if (session.against == Against::truth) {
         const int samples = session.truth_samples();
-        ImGui::TextDisabled(samples == 0   ? "tracing ..."
-                : session.truth_finished() ? "%d samples a pixel"
-                                           : "%d samples a pixel, more to come",
-            samples);
+        const char* more = session.truth_finished() ? "" : ", more to come";
+        ImGui::TextDisabled("%s", samples == 0 ? "tracing ..." : fmt::format("samples a pixel: {}{}", samples, more).c_str());
     } else if (session.against == Against::technique) {
         ImGui::TextDisabled("%s", lab::choice_text(session.right).c_str());
         if (ImGui::SmallButton("take the parameters of the left side")) session.right = session.left;
@@ -174,6 +172,7 @@ void file_section(Panels& panels, Session& session)
     panels.window_screenshot |= ImGui::Button("of the window (O)");
     panels.copy |= ImGui::Button("Copy the command line (C)");
     panels.mark("copy");
+    panels.reload |= ImGui::Button("Recompile changed shaders (R)");
 }
 
 } // namespace gnomon::view

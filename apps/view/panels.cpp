@@ -44,7 +44,12 @@ void technique_section(Panels& panels, Session& session)
 
 namespace {
 
-bool section(const char* name, bool open) { return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0); }
+bool section(Panels& panels, const char* name, bool open)
+{
+    const bool shown = ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    panels.mark(std::string("section ") + name);
+    return shown;
+}
 
 void top_line(const Session& session)
 {
@@ -68,13 +73,13 @@ void draw_panels(Panels& panels, Session& session)
                 | ImGuiWindowFlags_NoNav);
         ImGui::PushItemWidth(-120);
         top_line(session);
-        if (section("Technique", true)) technique_section(panels, session);
-        if (section("Picture", true)) picture_section(panels, session);
-        if (section("Light", true)) light_section(panels, session);
-        if (section("Files", false)) file_section(panels, session);
-        if (section("Camera and scene", false)) camera_section(panels, session);
-        if (section("Times", true)) times_section(panels, session);
-        if (section("Parameters", true)) parameter_section(panels, session);
+        if (section(panels, "Technique", true)) technique_section(panels, session);
+        if (section(panels, "Picture", true)) picture_section(panels, session);
+        if (section(panels, "Light", true)) light_section(panels, session);
+        if (section(panels, "Files", false)) file_section(panels, session);
+        if (section(panels, "Camera and scene", false)) camera_section(panels, session);
+        if (section(panels, "Times", true)) times_section(panels, session);
+        if (section(panels, "Parameters", true)) parameter_section(panels, session);
         ImGui::PopItemWidth();
         ImGui::End();
     }
@@ -114,6 +119,7 @@ void draw_help(Panels& panels)
         {"Home", "the scene's first camera"}, {"P, O", "screenshot of the picture, of the window"},
         {"C", "copy the command line that renders this view"}, {"R", "recompile changed shaders"}, {"F9", "load the scene again"},
         {"Tab", "hide the panel"}, {"Esc", "close this, or the message"}, {"Ctrl + Q", "quit"}};
+    ImGui::SetNextWindowPos({float(panel_width) + 40.0f, 60.0f}, ImGuiCond_Appearing);
     ImGui::Begin("Keys and mouse", &panels.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const auto& line : lines) {
@@ -139,8 +145,7 @@ void times_section(Panels&, Session& session)
     }
     ImGui::Text("%8.2f ms", sum);
     ImGui::SameLine();
-    ImGui::TextDisabled(
-        "on the device; %.1f ms in all, %.1f a second", session.draw_ms, session.draw_ms > 0 ? 1000.0 / session.draw_ms : 0.0);
+    ImGui::TextDisabled("in all; %.1f pictures a second", session.draw_ms > 0 ? 1000.0 / session.draw_ms : 0.0);
 }
 
 } // namespace gnomon::view

@@ -15,11 +15,10 @@ inline constexpr int panel_width = 372; // pixels
 /// What the panels keep, and what they ask of the window.
 struct Panels {
     bool hidden = false, help = false, follow_window = false;
-    bool screenshot = false, window_screenshot = false, copy = false, quit = false, redraw = false; ///< asked for; the loop resets them
+    bool screenshot = false, window_screenshot = false, copy = false, reload = false, quit = false; ///< asked for; the loop resets them
     std::string screenshot_file, preset_file = "out/preset.json", scene_file;
     std::map<std::string, int> pending; ///< whole numbers while their slider is held: each would be another pipeline
     std::map<std::string, std::array<int, 4>> places; ///< of widgets in the window: left, top, right, bottom
-    double loop_ms = 0; ///< from one window picture to the next, moving mean
 
     void mark(const std::string& name); ///< the widget just made
 };

@@ -154,21 +154,4 @@ base::Picture Picture::shown()
     return out;
 }
 
-std::array<double, 2> Picture::difference()
-{
-    const auto& a = left_.visibility;
-    const auto& b = right_.visibility;
-    if (!left_.valid || !right_.valid || a.empty() || b.empty() || a.front().desc().size != b.front().desc().size) return {-1, -1};
-    const base::Picture left = device_.read_back(left_.visibility.front()), right = device_.read_back(right_.visibility.front());
-    const base::Picture ids = device_.read_back(receivers_.depth);
-    double sum = 0, most = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < left.size.area(); ++i) {
-        if (ids.values[i] == 0.0f) continue;
-        const double d = std::abs(double(left.values[i * size_t(left.channels)]) - double(right.values[i * size_t(right.channels)]));
-        sum += d, most = std::max(most, d), ++count;
-    }
-    return {count ? sum / double(count) : 0.0, most};
-}
-
 } // namespace gnomon::view

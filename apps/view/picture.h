@@ -5,8 +5,6 @@
 #include "side.h"
 #include "truth_worker.h"
 
-#include <array>
-
 namespace gnomon::view {
 
 /// What of the picture is shown, by the numbers of composite.shared.h.
@@ -46,10 +44,9 @@ public:
     const Side& left() const { return left_; }
     const Side& right() const { return right_; }
     const std::vector<gpu::PassTime>& receiver_times() const { return receiver_times_; }
+    uint32_t map_layers() const { return overlays_.layer_count; } ///< of the left side's map, where it was asked for
     base::Picture radiance(); ///< the left side's, RGB
     base::Picture shown(); ///< the canvas, RGB, encoded for the screen
-    /// Mean and largest of the absolute difference of both sides' visibility, and the pixels that count; negative where there is none.
-    std::array<double, 2> difference();
 
 private:
     void draw_receivers(const Wish&, const std::string& key);

@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -90,7 +92,7 @@ void Session::technique(const std::string& id)
     const auto found = kept_.find(id);
     left = {&info, found == kept_.end() ? shadow::ParamValues(info.params()) : found->second};
     times.clear(), time_order.clear();
-    draw_ms = 0;
+    timed = 0;
 }
 
 void Session::compare_with(Against what, const std::string& id)
@@ -187,11 +189,14 @@ void Session::add_times(double ms)
     };
     add(picture().receiver_times());
     add(picture().left().times);
+    // The first picture also makes pipelines: the second takes its place.
+    const double share = timed <= 1 ? 1.0 : std::max(1.0 / timed, 0.1);
     for (const auto& [name, sum] : sums) {
         double& mean = times.emplace(name, sum).first->second;
-        mean += 0.2 * (sum - mean);
+        mean += share * (sum - mean);
     }
-    draw_ms = draw_ms == 0 ? ms : draw_ms + 0.2 * (ms - draw_ms);
+    draw_ms += share * (ms - draw_ms);
+    ++timed;
 }
 
 void Session::update(bool moving)
@@ -208,6 +213,17 @@ void Session::update(bool moving)
     if (!drawn || was_coarse != coarse_) return;
     add_times(ms);
     if (!coarse_) full_ms_ = ms;
+}
+
+std::string Session::reload_shaders()
+{
+    const std::vector<CompiledShader> compiled = shaders_.compile_changed();
+    if (compiled.empty()) return "no shader has changed";
+    for (const CompiledShader& shader : compiled) device_.replace_shader(shader.name, shader.spirv);
+    shaders_.taken();
+    picture().forget();
+    return fmt::format(
+        "recompiled {}{}", compiled.front().name, compiled.size() > 1 ? fmt::format(" and {} more", compiled.size() - 1) : std::string());
 }
 
 std::string Session::standing_error() const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "picture.h"
+#include "reload.h"
 #include "text.h"
 #include "truth_worker.h"
 #include "view.h"
@@ -52,6 +53,8 @@ public:
     /// The left side as `gnomon render` writes it where it is shown lit and alone, else what is shown. Returns the file.
     std::filesystem::path screenshot(const std::string& file) const;
 
+    std::string reload_shaders(); ///< recompiles what has changed in the source tree; says what it did
+
     const lab::Stage& stage() const { return loaded_->stage; }
     const std::string& scene_name() const { return options_.scene; }
     base::Size full_size() const { return size_; }
@@ -74,6 +77,7 @@ public:
     Message message;
     std::map<std::string, double> times; ///< moving means of passes, ms
     std::vector<std::string> time_order;
+    int timed = 0; ///< pictures in these means
     double draw_ms = 0; ///< moving mean of a whole picture
 
 private:
@@ -103,6 +107,7 @@ private:
     std::map<std::string, shadow::ParamValues> kept_; ///< of techniques shown before
     std::string truth_key_;
     std::shared_ptr<const TruthWorker::Result> truth_; ///< what the drawn right side came from
+    ShaderSources shaders_;
     double full_ms_ = 0; ///< of the last picture that was not coarse
     bool coarse_ = false;
 };

@@ -17,6 +17,13 @@ namespace {
 
 constexpr float radians_per_pixel = 0.006f;
 
+void label(ImDrawList& list, float x, float y, const std::string& text)
+{
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list.AddRectFilled({x - 3, y - 2}, {x + size.x + 3, y + size.y + 2}, IM_COL32(0, 0, 0, 160), 3.0f);
+    list.AddText({x, y}, IM_COL32(255, 220, 90, 255), text.c_str());
+}
+
 ImTextureID fill(int which) { return reinterpret_cast<ImTextureID>(uintptr_t(which)); }
 
 } // namespace
@@ -40,13 +47,17 @@ void Viewport::place(const Panels& panels, Session& session)
         const float x = rect_[0] + session.look.split * w;
         list.AddLine({x, rect_[1]}, {x, rect_[3]}, IM_COL32(255, 220, 90, 255), 1.5f);
         const std::string right = session.against == Against::technique ? std::string(session.right.info->id) : "truth";
-        list.AddText({x + 6, rect_[1] + 4}, IM_COL32(255, 220, 90, 255), right.c_str());
         const std::string own(session.left.info->id);
-        list.AddText({x - 6 - ImGui::CalcTextSize(own.c_str()).x, rect_[1] + 4}, IM_COL32(255, 220, 90, 255), own.c_str());
+        label(list, x + 8, rect_[1] + 6, right);
+        label(list, x - 8 - ImGui::CalcTextSize(own.c_str()).x, rect_[1] + 6, own);
     }
     if (session.insets) {
-        const float inset = std::min(0.45f * w, 768.0f);
-        list.AddImage(fill(UI_INSETS), {rect_[2] - inset - 6, rect_[3] - 0.5f * inset - 6}, {rect_[2] - 6, rect_[3] - 6});
+        // Four layers beside one another, two rows: only those that there are.
+        const uint32_t layers = session.picture().map_layers();
+        const float columns = 0.25f * float(std::clamp(layers, 1u, 4u)), rows = layers > 4 ? 1.0f : 0.5f;
+        const float inset = std::min(0.6f * w, 768.0f);
+        list.AddImage(fill(UI_INSETS), {rect_[2] - columns * inset - 6, rect_[3] - 0.5f * rows * inset - 6}, {rect_[2] - 6, rect_[3] - 6},
+            {0, 0}, {columns, rows});
     }
 }
 
@@ -113,6 +124,9 @@ void Viewport::key(int key, Panels& panels, Session& session)
         return;
     case GLFW_KEY_C:
         panels.copy = true;
+        return;
+    case GLFW_KEY_R:
+        panels.reload = true;
         return;
     case GLFW_KEY_PAGE_DOWN:
         return step_technique(1);

@@ -56,13 +56,13 @@ Display::~Display()
     ::waitpid(server_, nullptr, 0);
 }
 
-Viewer::Viewer(const Scratch& scratch, std::vector<std::string> arguments)
+Viewer::Viewer(const Scratch& scratch, std::vector<std::string> arguments, std::map<std::string, std::string> environment)
     : folder_(scratch.folder())
 {
     arguments.insert(arguments.begin(), "view");
     for (const char* word : {"--state", "state.json", "--validation"}) arguments.emplace_back(word);
-    const RunOptions options{
-        .environment = {{"DISPLAY", display_.name()}, {"WAYLAND_DISPLAY", ""}, {"XDG_RUNTIME_DIR", folder_}}, .seconds = 240};
+    environment.insert({{"DISPLAY", display_.name()}, {"WAYLAND_DISPLAY", ""}, {"XDG_RUNTIME_DIR", folder_}});
+    const RunOptions options{.environment = environment, .seconds = 240};
     run_ = std::async(std::launch::async, [=, folder = folder_] { return run_gnomon(arguments, folder, options); });
     wait(
         "the window's first picture", [](const Json& s) { return s.value("idle", false); }, 120);

@@ -34,7 +34,7 @@ private:
 /// A running viewer. Waiting for what never comes fails the test.
 class Viewer {
 public:
-    Viewer(const Scratch&, std::vector<std::string> arguments);
+    Viewer(const Scratch&, std::vector<std::string> arguments, std::map<std::string, std::string> environment = {});
     ~Viewer(); ///< quits it
 
     using Json = nlohmann::json;

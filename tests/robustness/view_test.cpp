@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/source_root.h"
 #include "view_session.h"
 
 #include <gtest/gtest.h>
@@ -149,6 +150,69 @@ TEST_F(View, ErrorsAreShownAndNothingIsLost)
     viewer.click("technique back_projection");
     viewer.key("p");
     EXPECT_TRUE(fs::exists(scratch / "out/view.own.back_projection.png"));
+    expect_silent(viewer.quit());
+}
+
+/// The GLSL of the source tree and what it includes, with the files' times, which say what has changed.
+void copy_shaders(const fs::path& to)
+{
+    for (const char* top : {"shaders", "src", "techniques", "apps"})
+        for (const auto& entry : fs::recursive_directory_iterator(source_root() / top)) {
+            const std::string extension = entry.path().extension();
+            if (extension != ".glsl" && extension != ".h") continue;
+            const fs::path target = to / fs::relative(entry.path(), source_root());
+            fs::create_directories(target.parent_path());
+            fs::copy_file(entry.path(), target);
+            fs::last_write_time(target, entry.last_write_time());
+        }
+}
+
+TEST_F(View, ShadersAreRecompiledAndBrokenOnesLeftAlone)
+{
+    const fs::path tree = scratch / "tree", shader = tree / "techniques/shadow_map/shadow_map_resolve.frag.glsl";
+    copy_shaders(tree);
+    Viewer viewer(scratch, {"balls", "--size", "240x135"}, {{"GNOMON_ROOT", tree}});
+    const auto edit = [&](const std::string& text) {
+        std::ofstream(shader) << text;
+        // Where the program is of this very second.
+        fs::last_write_time(shader, fs::file_time_type::clock::now());
+        viewer.key("r");
+    };
+    viewer.key("r");
+    EXPECT_NE(viewer.state()["message"].get<std::string>().find("no shader has changed"), std::string::npos) << viewer.state()["message"];
+    viewer.key("p");
+    const std::string original = read_whole(shader);
+    edit(original.substr(0, original.rfind('}')) + "    visibility = 0.0;\n}\n");
+    EXPECT_EQ(viewer.state()["message"], "recompiled techniques/shadow_map/shadow_map_resolve.frag");
+    viewer.key("p");
+    edit(original + "nonsense");
+    EXPECT_NE(viewer.state()["message"].get<std::string>().find("shadow_map_resolve.frag.glsl:"), std::string::npos);
+    viewer.key("p");
+    edit(original);
+    viewer.key("p");
+    expect_silent(viewer.quit());
+    const auto shot = [&](const std::string& number) { return read_whole(scratch / ("out/view.balls.shadow_map" + number + ".png")); };
+    EXPECT_NE(shot(""), shot(".2")) << "the edited shader draws";
+    EXPECT_EQ(shot(".2"), shot(".3")) << "the broken one does not";
+    EXPECT_EQ(shot(""), shot(".4"));
+}
+
+TEST_F(View, PresetsAndParametersComeBack)
+{
+    Viewer viewer(scratch, {"plane", "--size", "240x135", "--technique", "blurred_depth"});
+    fs::create_directories(scratch / "out");
+    std::ofstream(scratch / "out/preset.json") << R"({"technique": "alias_free", "parameters": {"no_such": 1}})";
+    viewer.click("section Files");
+    viewer.click("load preset");
+    EXPECT_NE(viewer.state()["message"].get<std::string>().find("no_such"), std::string::npos);
+    EXPECT_EQ(viewer.state()["technique"], "blurred_depth") << "nothing of a bad preset is taken";
+    std::ofstream(scratch / "out/preset.json") << R"({"technique": "shadow_map", "parameters": {"pcf": 7}})";
+    viewer.click("load preset");
+    EXPECT_EQ(viewer.state()["technique"], "shadow_map:pcf=7");
+    viewer.click("save preset");
+    viewer.click("technique blurred_depth");
+    viewer.click("load preset");
+    EXPECT_EQ(viewer.state()["technique"], "shadow_map:pcf=7");
     expect_silent(viewer.quit());
 }
 
