@@ -40,11 +40,11 @@ void against_combo(Panels& panels, Session& session)
 
 void size_combo(Panels& panels, Session& session)
 {
-    static const std::vector<base::Size> sizes = {{}, {320, 180}, {480, 270}, {640, 360}, {960, 540}, {1280, 720}, {1920, 1080}};
+    std::vector<base::Size> sizes = {{}, {320, 180}, {480, 270}, {640, 360}, {960, 540}, {1280, 720}, {1920, 1080}};
+    if (std::find(sizes.begin(), sizes.end(), session.full_size()) == sizes.end()) sizes.push_back(session.full_size());
     std::vector<std::string> names = {"as the window"};
     for (size_t i = 1; i < sizes.size(); ++i) names.push_back(fmt::format("{} x {}", sizes[i].width, sizes[i].height));
-    const auto found = std::find(sizes.begin() + 1, sizes.end(), session.full_size());
-    int index = panels.follow_window ? 0 : found == sizes.end() ? -1 : int(found - sizes.begin());
+    int index = panels.follow_window ? 0 : int(std::find(sizes.begin() + 1, sizes.end(), session.full_size()) - sizes.begin());
     if (combo("size", index, names)) {
         panels.follow_window = index == 0;
         if (index > 0) session.attempt([&] { session.size(sizes[size_t(index)]); });

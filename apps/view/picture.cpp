@@ -51,6 +51,12 @@ Picture::Picture(gpu::Device& device, shadow::SceneGpu& scene)
     overlays_.insets_image = &insets_;
 }
 
+void Picture::draw_again()
+{
+    receivers_key_.clear();
+    left_.draw_again();
+}
+
 void Picture::forget()
 {
     receivers_key_.clear();
@@ -60,38 +66,35 @@ void Picture::forget()
 bool Picture::draw(const Wish& wish)
 {
     const std::string view = view_key(wish.stage);
-    const bool moved = view != receivers_key_;
-    if (moved) {
+    if (view != receivers_key_) {
         receiver_times_ = receivers_.draw(device_, scene_, wish.stage.view);
         receivers_key_ = view;
     }
     const std::string common = view + lights_key(wish.stage) + fmt::format(" {}", wish.ambient);
     overlays_.footprint = wish.footprint, overlays_.layers = wish.layers, overlays_.insets = wish.insets;
-    bool drawn = left_.draw(device_, scene_, receivers_, wish.stage, wish.left, wish.ambient,
+    const bool drawn = left_.draw(device_, scene_, receivers_, wish.stage, wish.left, wish.ambient,
         fmt::format("{} {} {} {} {}", common, lab::choice_text(wish.left), wish.footprint, wish.layers, wish.insets), &overlays_);
     if (left_.error.empty() && overlays_.layer_count == 0 && (wish.footprint || wish.layers || wish.insets))
         left_.error = fmt::format(
             "{} looks its shadows up in no light map that could be shown; choose another picture or overlay", wish.left.info->id);
     if (wish.right)
-        drawn |= right_.draw(
+        right_.draw(
             device_, scene_, receivers_, wish.stage, *wish.right, wish.ambient, common + " " + lab::choice_text(*wish.right), nullptr);
     else if (wish.against_truth)
-        drawn |= draw_truth(wish, common);
-    return drawn || moved;
+        draw_truth(wish, common);
+    return drawn;
 }
 
-bool Picture::draw_truth(const Wish& wish, const std::string& key)
+void Picture::draw_truth(const Wish& wish, const std::string& key)
 {
     if (!wish.truth || wish.truth->images.empty()) {
         right_.valid = false;
-        return false;
+        return;
     }
-    if (!right_.draw(device_, scene_, receivers_, wish.stage, wish.truth->images, wish.ambient,
-            fmt::format("{} truth {} {}", key, wish.truth->key, wish.truth->samples)))
-        return false;
+    const std::string own = fmt::format("{} truth {} {}", key, wish.truth->key, wish.truth->samples);
+    if (!right_.draw(device_, scene_, receivers_, wish.stage, wish.truth->images, wish.ambient, own)) return;
     fit_image(device_, truth_primitive_, VK_FORMAT_R32_UINT, wish.stage.view.size, "truth's primitives");
     device_.upload(truth_primitive_, std::as_bytes(std::span(wish.truth->primitive)));
-    return true;
 }
 
 uint32_t Picture::right_kind(const Wish& wish) const

@@ -34,9 +34,10 @@ struct Look {
 class Picture {
 public:
     explicit Picture(gpu::Device&, shadow::SceneGpu&);
-    /// True where anything was drawn. Does not throw for what a side cannot draw: Side::error has it.
+    /// True where the left side was drawn anew. Does not throw for what a side cannot draw: Side::error has it.
     bool draw(const Wish&);
     void compose(const Wish&, const Look&); ///< after draw
+    void draw_again(); ///< at the next `draw`, for its times: the first picture of a technique makes pipelines
     void forget(); ///< draw all of it again, with new techniques
 
     gpu::Image& canvas() { return canvas_; }
@@ -50,7 +51,7 @@ public:
 
 private:
     void draw_receivers(const Wish&, const std::string& key);
-    bool draw_truth(const Wish&, const std::string& key);
+    void draw_truth(const Wish&, const std::string& key);
     uint32_t right_kind(const Wish&) const;
 
     gpu::Device& device_;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double slow = 100; // ms: slower pictures are drawn coarser while something moves
 
+constexpr double patient = 4000; // ms: a first picture that took longer is not drawn twice for its times
+
 lab::Choice first_choice(const Options& options)
 {
     lab::Choice choice = lab::parse_choice(options.technique);
@@ -213,6 +215,7 @@ void Session::update(bool moving)
     if (!drawn || was_coarse != coarse_) return;
     add_times(ms);
     if (!coarse_) full_ms_ = ms;
+    if (timed == 1 && ms < patient) picture().draw_again();
 }
 
 std::string Session::reload_shaders()

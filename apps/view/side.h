@@ -35,7 +35,8 @@ public:
     /// The same with given visibility.
     bool draw(gpu::Device&, shadow::SceneGpu&, Receivers&, const lab::Stage&, const std::vector<base::Picture>& images, float ambient,
         const std::string& key);
-    void forget();
+    void draw_again() { key_.clear(); }
+    void forget(); ///< its techniques too
 
     bool valid = false; ///< there is a picture, if only an older one
     std::string error; ///< a sentence; "" = none

@@ -25,7 +25,9 @@ void expect_same_camera(const scene::Camera& a, const scene::Camera& b)
     EXPECT_EQ(a.up, b.up);
     EXPECT_EQ(a.half_height, b.half_height);
     EXPECT_EQ(a.near, b.near);
-    if (a.half_height <= 0.0f) EXPECT_EQ(a.fov_y, b.fov_y);
+    if (a.half_height <= 0.0f) {
+        EXPECT_EQ(a.fov_y, b.fov_y);
+    }
 }
 
 TEST(ViewText, CamerasComeBackBitByBit)
