@@ -108,7 +108,8 @@ TEST_F(View, SurvivesResizingAndMinimising)
     Viewer viewer(scratch, {"plane", "--size", "160x90"});
     for (const auto& [width, height] : {std::pair{700, 500}, {1100, 640}, {321, 201}}) {
         viewer.window("windowsize % " + std::to_string(width) + " " + std::to_string(height));
-        viewer.wait("the new size", [&](const Json& s) { return s["window"] == Json{width, height} && s["idle"].get<bool>(); });
+        const Json size = {width, height};
+        viewer.wait("the new size", [&](const Json& s) { return s["window"] == size && s["idle"].get<bool>(); });
     }
     viewer.window("windowsize % 900 700");
     viewer.settled();
