@@ -5,7 +5,7 @@ file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} RESOLVED_DEPENDENCIES_VAR 
 foreach(library ${libraries} ${loader})
   get_filename_component(name ${library} NAME)
   set(folder ${CMAKE_INSTALL_PREFIX}/lib)
-  if(name MATCHES "^(libstdc\\+\\+|libgcc_s|libz|libvulkan)\\.so")
+  if(name MATCHES "^(libstdc\\+\\+|libgcc_s|libz|libvulkan|libX11|libxcb|libXau|libXdmcp|libbsd|libmd)\\.so")
     string(APPEND folder /fallback/${name})
   endif()
   file(INSTALL ${library} DESTINATION ${folder} TYPE SHARED_LIBRARY FOLLOW_SYMLINK_CHAIN)

@@ -28,3 +28,25 @@ gnomon_imported(stb stb_image.h SUFFIXES stb) # headers only: the implementation
 gnomon_imported(tinyexr tinyexr.h LIBRARIES tinyexr)
 gnomon_imported(volk volk.h DEPENDS Vulkan::Headers ${CMAKE_DL_LIBS}) # header only: loads Vulkan at run time, links nothing
 gnomon_imported(spirv_cross spirv_cross_c.h SUFFIXES spirv_cross LIBRARIES spirv-cross-c-shared)
+
+# For `gnomon view`, which is left out without them. Dear ImGui comes with no CMake target from Debian (libimgui-dev: headers in imgui/ and
+# imgui/backends/, a library that holds the GLFW backend) and with imgui::imgui from vcpkg ([glfw-binding]).
+find_package(glfw3 3.3 QUIET)
+find_package(imgui CONFIG QUIET)
+find_path(GNOMON_imgui_INCLUDE imgui.h PATH_SUFFIXES imgui)
+find_path(GNOMON_imgui_glfw_INCLUDE imgui_impl_glfw.h PATH_SUFFIXES imgui/backends)
+find_library(GNOMON_imgui_LIBRARY imgui)
+find_library(GNOMON_stb_LIBRARY stb) # Debian's Dear ImGui takes its font rasteriser from there
+if(glfw3_FOUND AND (TARGET imgui::imgui OR (GNOMON_imgui_INCLUDE AND GNOMON_imgui_glfw_INCLUDE AND GNOMON_imgui_LIBRARY)))
+  add_library(gnomon_dep_window INTERFACE)
+  add_library(gnomon::window ALIAS gnomon_dep_window)
+  if(TARGET imgui::imgui)
+    target_link_libraries(gnomon_dep_window INTERFACE imgui::imgui)
+  else()
+    target_include_directories(gnomon_dep_window SYSTEM INTERFACE ${GNOMON_imgui_INCLUDE} ${GNOMON_imgui_glfw_INCLUDE})
+    target_link_libraries(gnomon_dep_window INTERFACE ${GNOMON_imgui_LIBRARY} $<$<BOOL:${GNOMON_stb_LIBRARY}>:${GNOMON_stb_LIBRARY}>)
+  endif()
+  target_link_libraries(gnomon_dep_window INTERFACE glfw)
+else()
+  message(STATUS "Building without `gnomon view`: GLFW 3.3 or Dear ImGui is not there (Debian: libglfw3-dev libimgui-dev)")
+endif()

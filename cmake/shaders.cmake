@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# GLSL -> SPIR-V at build time, embedded in the library. An entry point is a file NAME.<stage>.glsl under shaders/, src/ or
-# techniques/; its name in the table is its path from the root without ".glsl". Other .glsl files are includes.
+# GLSL -> SPIR-V at build time, embedded in the library. An entry point is a file NAME.<stage>.glsl under shaders/, src/,
+# techniques/ or apps/; its name in the table is its path from the root without ".glsl". Other .glsl files are includes.
 function(gnomon_compile_shader source name output)
   string(REGEX MATCH "\\.([a-z]+)\\.glsl$" _ ${source})
   set(stage ${CMAKE_MATCH_1})
@@ -16,7 +16,7 @@ endfunction()
 function(gnomon_embed_shaders target)
   set(pattern "*.vert.glsl" "*.frag.glsl" "*.comp.glsl" "*.geom.glsl" "*.task.glsl" "*.mesh.glsl" "*.rgen.glsl" "*.rmiss.glsl" "*.rchit.glsl" "*.rahit.glsl")
   set(sources)
-  foreach(root shaders src techniques tests)
+  foreach(root shaders src techniques apps tests)
     foreach(p ${pattern})
       file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${root}/${p})
       list(APPEND sources ${found})

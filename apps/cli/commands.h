@@ -105,6 +105,15 @@ struct Curves {
 };
 int curves(const Curves&);
 
+struct View {
+    Common common;
+    Picture picture;
+    std::string technique = "shadow_map", against, state;
+    std::vector<std::string> parameters; ///< name=value
+    float exposure = 0, ambient = 0.45f; ///< stops; relative
+};
+int view(const View&);
+
 struct Folder {
     Common common;
     std::vector<std::string> ids; ///< empty = all techniques

@@ -70,6 +70,25 @@ void add_slice(CLI::App& app, cli::Slice& slice)
     add_common(app, slice.common);
 }
 
+void add_look(CLI::App& app, float& exposure, float& ambient)
+{
+    app.add_option("--exposure", exposure, "Stops brighter or darker")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
+    app.add_option("--ambient", ambient, "Light from all around, relative to the lights")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+}
+
+void add_view(CLI::App& app, cli::View& view)
+{
+    add_picture(app, view.picture);
+    app.add_option("--technique", view.technique, "Technique, by its id")->capture_default_str();
+    app.add_option("--against", view.against, "What is shown on the right: truth, or a technique with parameters after colons");
+    app.add_option("--state", view.state, "A JSON file that always says what the window shows and where its widgets are");
+    add_look(app, view.exposure, view.ambient);
+    app.allow_extras();
+    add_common(app, view.common);
+}
+
 void add_sweep(CLI::App& app, cli::Sweep& sweep)
 {
     app.add_option("experiment", sweep.experiment, "The experiment file (docs/experiments.md)")->required();
@@ -120,14 +139,13 @@ int run(int argc, char** argv)
     render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    render_app->add_option("--exposure", render.exposure, "Stops brighter or darker")
-        ->check(CLI::Range(-20.0, 20.0))
-        ->capture_default_str();
-    render_app->add_option("--ambient", render.ambient, "Light from all around, relative to the lights")
-        ->check(CLI::Range(0.0, 100.0))
-        ->capture_default_str();
+    add_look(*render_app, render.exposure, render.ambient);
     render_app->allow_extras();
     add_common(*render_app, render.common);
+
+    cli::View view;
+    CLI::App* view_app = app.add_subcommand("view", "A window: every technique and parameter, beside the truth or another technique");
+    add_view(*view_app, view);
 
     cli::Truth truth;
     CLI::App* truth_app = app.add_subcommand("truth", "Ray-traced visibility with its variance, by the CPU");
@@ -224,6 +242,10 @@ int run(int argc, char** argv)
     if (*render_app) {
         for (const std::string& item : technique_options(*render_app, render.technique)) render.parameters.push_back(item);
         return cli::render(render);
+    }
+    if (*view_app) {
+        view.parameters = technique_options(*view_app, view.technique);
+        return cli::view(view);
     }
     if (*truth_app) return cli::truth(truth);
     if (*compare_app) return cli::compare(compare);

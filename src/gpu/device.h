@@ -95,6 +95,10 @@ public:
     const Program& ray_program(std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders> hits,
         std::span<const SpecConstant> = {});
 
+    /// Programs asked for from now on are made of these words instead of the embedded ones; those that are there stay. Throws
+    /// std::logic_error where the shader leaves the descriptor convention, and then replaces nothing.
+    void replace_shader(std::string_view shader, std::vector<uint32_t> spirv);
+
     /// Bottom-level structures with one geometry each, and a top level over instances. Throws where unsupported.
     AccelerationStructure build_blas(const BlasDesc&);
     AccelerationStructure build_tlas(std::span<const TlasInstance>);

@@ -53,6 +53,7 @@ Programs::Programs(Context& c)
 Programs::~Programs()
 {
     programs_.clear();
+    retired_.clear();
     if (changed_) save_cache();
     context_.vk.vkDestroyPipelineCache(context_.handle, cache_, nullptr);
 }
@@ -75,7 +76,8 @@ ProgramImpl& Programs::start(const std::string& key, std::span<const SpecConstan
 
 uint32_t Programs::add_stage(ProgramImpl& program, std::string_view shader, VkShaderStageFlags allowed)
 {
-    const ShaderSource& source = find_shader(shader);
+    const auto replaced = replaced_.find(shader);
+    const ShaderSource source = replaced == replaced_.end() ? find_shader(shader) : ShaderSource{shader, replaced->second};
     const VkShaderStageFlagBits stage = stage_of(shader);
     if (!(stage & allowed)) throw std::logic_error(fmt::format("shader '{}' is of the wrong stage for program '{}'", shader, program.name));
     const Reflection reflection = reflect(source, stage, program.constants);
@@ -108,6 +110,19 @@ void Programs::finish(ProgramImpl& program)
     info.setLayoutCount = program.textures ? 3 : 2;
     info.pSetLayouts = sets;
     check(context_.vk.vkCreatePipelineLayout(context_.handle, &info, nullptr, &program.layout), "vkCreatePipelineLayout", program.name);
+}
+
+void Programs::replace(std::string_view shader, std::vector<uint32_t> spirv)
+{
+    find_shader(shader); // throws where there is none of that name
+    reflect({shader, spirv}, stage_of(shader), {});
+    replaced_[std::string(shader)] = std::move(spirv);
+    const std::string word = " " + std::string(shader) + " ";
+    for (auto it = programs_.begin(); it != programs_.end();) {
+        const bool uses = (it->first + " ").find(word) != std::string::npos;
+        if (uses) retired_.push_back(std::move(it->second));
+        it = uses ? programs_.erase(it) : std::next(it);
+    }
 }
 
 const Program& Programs::compute(std::string_view shader, std::span<const SpecConstant> constants)
@@ -237,5 +252,7 @@ const Program& Device::ray_program(std::string_view raygen, std::span<const std:
 {
     return impl_->programs->ray(raygen, miss, hits, constants);
 }
+
+void Device::replace_shader(std::string_view shader, std::vector<uint32_t> spirv) { impl_->programs->replace(shader, std::move(spirv)); }
 
 } // namespace gnomon::gpu

@@ -73,6 +73,7 @@ public:
     const Program& raster(std::string_view vertex, std::string_view fragment, std::span<const SpecConstant>);
     const Program& ray(
         std::string_view raygen, std::span<const std::string_view> miss, std::span<const HitShaders>, std::span<const SpecConstant>);
+    void replace(std::string_view shader, std::vector<uint32_t> spirv);
     VkPipelineCache cache() const { return cache_; }
     void made_pipeline() { changed_ = true; }
 
@@ -89,6 +90,8 @@ private:
     VkPipelineCache cache_ = VK_NULL_HANDLE;
     bool changed_ = false;
     std::map<std::string, std::unique_ptr<ProgramImpl>> programs_;
+    std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_; ///< by the shader's name
+    std::vector<std::unique_ptr<ProgramImpl>> retired_; ///< of shaders that were replaced: their users keep references
 };
 
 } // namespace gnomon::gpu
