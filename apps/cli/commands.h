@@ -82,6 +82,24 @@ struct Merge {
 };
 int merge(const Merge&);
 
+struct Tune {
+    Common common;
+    std::string technique, output, reference, minimise = "leak+acne", size = "320x180";
+    std::vector<std::string> scenes, validation, lights, under, vary;
+    int budget = 100, seed = 1, truth_samples = 64;
+};
+int tune(const Tune&);
+
+struct Advise {
+    Common common;
+    Picture picture; ///< all but its scene
+    std::vector<std::string> scenes, budget;
+    std::string prefer = "any", metric = "mae", reference = "shadow_map:map_size=2048", output;
+    bool exhaustive = false;
+    int truth_samples = 64, repeats = 3;
+};
+int advise(const Advise&);
+
 struct Slice {
     Common common;
     Picture picture;
