@@ -176,7 +176,10 @@ private:
         const Kept& k = kept({base_.info, space_.params(point)}, place, start);
         progress_->advance();
         if (k.values.empty()) return {0, 1e6};
-        Reading out{sum(k), 0};
+        // As parts of what the start errs there, so that no scene outweighs the others; the addend is a few pixels' worth where that is
+        // nothing.
+        constexpr double few = 1e-4;
+        Reading out{(sum(k) + few) / (sum(kept(base_, place, true)) + few), 0};
         for (const Constraint& c : under_) out.violation += missed(c, k);
         return out;
     }
