@@ -21,6 +21,7 @@ lab::AdviseOptions advise_options(const Advise& options, const std::string& scen
         .prefer = lab::parse_prefer(options.prefer),
         .metric = options.metric,
         .reference = options.reference,
+        .without = options.without,
         .exhaustive = options.exhaustive,
         .truth_samples = options.truth_samples,
         .repeats = options.repeats};

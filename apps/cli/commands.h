@@ -93,7 +93,7 @@ int tune(const Tune&);
 struct Advise {
     Common common;
     Picture picture; ///< all but its scene
-    std::vector<std::string> scenes, budget;
+    std::vector<std::string> scenes, budget, without;
     std::string prefer = "any", metric = "mae", reference = "shadow_map:map_size=2048", output;
     bool exhaustive = false;
     int truth_samples = 64, repeats = 3;

@@ -124,6 +124,7 @@ void add_advise(CLI::App& app, cli::Advise& advise)
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--prefer", advise.prefer, "exact, soft or stable techniques alone, or any")->capture_default_str();
+    app.add_option("--without", advise.without, "Techniques that are no candidates")->delimiter(',')->allow_extra_args(false);
     app.add_option("--metric", advise.metric, "What an error is: metrics joined by +")->capture_default_str();
     app.add_option("--reference", advise.reference, "The technique that 2x is twice of")->capture_default_str();
     app.add_flag("--exhaustive", advise.exhaustive, "Measure all candidates at full size too, and say what the choice loses");

@@ -25,6 +25,7 @@ public:
         , errors_(parse_sum(options.metric))
         , reference_(parse_choice(options.reference))
     {
+        for (const std::string& id : options.without) shadow::technique(id);
         for (const std::string& text : options.budget) budget_.push_back(parse_budget(text));
         for (const std::string& q : errors_)
             if (is_cost(q)) base::fail("{} is no error; --metric takes metrics, and --budget bounds time and memory", q);
@@ -72,6 +73,8 @@ private:
     {
         const Stage& stage = meter_->stage(rounds - 1);
         for (Candidate& c : find_candidates(device_, stage, out_.features, options_.prefer)) {
+            const auto& without = options_.without;
+            if (c.left_out.empty() && std::find(without.begin(), without.end(), c.choice.info->id) != without.end()) continue;
             if (c.left_out.empty())
                 candidates_.push_back(std::move(c.choice));
             else
@@ -79,7 +82,8 @@ private:
         }
         out_.candidates = candidates_.size();
         if (candidates_.empty())
-            base::fail("no technique fits this light and preference; the first that was left out is {}", out_.left_out.front());
+            base::fail("no technique fits this light and preference{}",
+                out_.left_out.empty() ? "" : "; the first that was left out is " + out_.left_out.front());
     }
 
     size_t expected() const
@@ -107,8 +111,9 @@ private:
         std::optional<Trial>& out = seen_[key];
         progress_->advance();
         const Choice& choice = candidates_[candidate];
+        if (too_dear(choice, round)) return out;
         try {
-            const Run run = meter_->measure(size_t(round), choice, options_.repeats);
+            const Run run = meter_->measure(size_t(round), choice, round == rounds - 1 ? options_.repeats : 2);
             Measured m{choice, 0, run.technique_ms, 0, run.bytes};
             for (const std::string& q : errors_) m.error += quantity_of(run, q);
             for (const Constraint& c : budget_) m.excess += missed_by(quantity_of(run, c.quantity), c.limit);
@@ -120,6 +125,15 @@ private:
             out_.left_out.push_back(fmt::format("{}: {}", choice_text(choice), e.what()));
         }
         return out;
+    }
+
+    /// With less of something it is far over the budget already: then it need not be measured.
+    bool too_dear(const Choice& choice, int round) const
+    {
+        return std::any_of(seen_.begin(), seen_.end(), [&](const auto& entry) {
+            const auto& [key, trial] = entry;
+            return key.second == round && trial && trial->excess > 2 * HalvingOptions().slack && costs_more(choice, candidates_[key.first]);
+        });
     }
 
     static bool less(const Measured& a, const Measured& b) { return a.error != b.error ? a.error < b.error : a.ms < b.ms; }

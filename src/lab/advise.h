@@ -26,8 +26,11 @@ struct Candidate {
 /// From the registry by what techniques say of themselves, in settings that follow from the names of their parameters; those that were left
 /// out come once each, with the reason. Nothing here names a technique.
 std::vector<Candidate> find_candidates(const gpu::Device&, const Stage&, const Features&, Prefer);
-/// The settings of one technique: its defaults first.
+/// The settings of one technique, those with small maps first.
 std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer);
+
+/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, and else the same.
+bool costs_more(const Choice& a, const Choice& b);
 
 struct AdviseOptions {
     StageOptions stage; ///< its first light counts
@@ -35,6 +38,7 @@ struct AdviseOptions {
     Prefer prefer = Prefer::any;
     std::string metric = "mae"; ///< parse_sum: what an error is
     std::string reference = "shadow_map:map_size=2048"; ///< what "2x" is twice of
+    std::vector<std::string> without; ///< ids that are no candidates, as an engine may lack what they need
     bool exhaustive = false; ///< measure every candidate at full size as well, and say what the choice lost
     int truth_samples = 64, repeats = 3;
     std::filesystem::path truth_cache; ///< empty = the user's cache

@@ -12,16 +12,14 @@ namespace gnomon::lab {
 namespace {
 
 using shadow::ParamInfo;
+using shadow::ParamType;
 
 /// Penumbrae narrower than this many pixels look like hard edges that were smoothed.
 constexpr double narrow = 3.0;
 
-bool has(const shadow::TechniqueInfo& info, const char* name) { return info.params().find(name) != nullptr; }
-
 bool has_choice(const ParamInfo* info, const std::string& name)
 {
-    return info && info->type == shadow::ParamType::choice
-        && std::find(info->choices.begin(), info->choices.end(), name) != info->choices.end();
+    return info && info->type == ParamType::choice && std::find(info->choices.begin(), info->choices.end(), name) != info->choices.end();
 }
 
 void add(std::vector<Choice>& out, Choice choice)
@@ -36,30 +34,37 @@ Choice with(Choice choice, const ParamInfo& info, double value)
     return choice;
 }
 
-/// More and less of what a technique spends its time on, by the names that such parameters have.
+/// What a technique spends its time on, by the names that such parameters have, and how much less and more of it is tried.
+struct Amount {
+    const char* name;
+    double less, more;
+};
+constexpr Amount amounts[]
+    = {{"map_size", 0.5, 2}, {"samples", 0.25, 4}, {"taps", 0.5, 2}, {"search_taps", 0.5, 2}, {"kernel", 0.34, 2}, {"pcf", 0.34, 2}};
+
+bool is_amount(const ParamInfo& info)
+{
+    return info.type == ParamType::integer
+        && std::any_of(std::begin(amounts), std::end(amounts), [&](const Amount& a) { return info.name == a.name; });
+}
+
 void add_amounts(const Choice& base, std::vector<Choice>& out)
 {
-    struct Amount {
-        const char* name;
-        double less, more;
-    };
-    for (const Amount& amount : {Amount{"map_size", 0.5, 2}, {"samples", 0.25, 4}, {"taps", 0.5, 2}, {"search_taps", 0.5, 2},
-             {"kernel", 0.34, 2}, {"pcf", 0.34, 2}}) {
+    for (const Amount& amount : amounts) {
         const ParamInfo* info = base.params.table().find(amount.name);
         if (!info) continue;
-        if (info->type == shadow::ParamType::choice)
+        if (info->type == ParamType::choice)
             for (size_t i = 0; i < info->choices.size(); ++i) add(out, with(base, *info, double(i)));
-        if (info->type != shadow::ParamType::integer) continue;
+        if (info->type != ParamType::integer) continue;
         const double now = base.params.get(*info);
-        // windows are odd: even ones have no middle
-        const double odd = std::fmod(now, 2.0) == 1.0 ? 1.0 : 0.0;
+        const bool odd = std::fmod(now, 2.0) == 1.0; // windows are: even ones have no middle
         for (const double factor : {amount.less, amount.more}) {
             const double value = std::round(now * factor);
-            add(out, with(base, *info, odd != 0.0 && std::fmod(value, 2.0) == 0.0 ? value + 1.0 : value));
+            add(out, with(base, *info, odd && std::fmod(value, 2.0) == 0.0 ? value + 1.0 : value));
         }
     }
     const ParamInfo *taps = base.params.table().find("taps"), *search = base.params.table().find("search_taps");
-    if (taps && search && taps->type == shadow::ParamType::integer && search->type == shadow::ParamType::integer)
+    if (taps && search && is_amount(*taps) && is_amount(*search))
         add(out, with(with(base, *taps, 2 * base.params.get(*taps)), *search, 2 * base.params.get(*search)));
 }
 
@@ -119,13 +124,30 @@ std::vector<Choice> settings(const shadow::TechniqueInfo& info, const scene::Lig
     const std::vector<Choice> bases = fitted(default_choice(info), light, prefer);
     for (const Choice& base : bases) add(out, base);
     if (!bases.empty()) add_amounts(bases.front(), out);
-    // the layers that follow the view again, with twice the texels: the two that most often help together
-    if (has(info, "map_size"))
-        for (size_t i = 1; i < bases.size(); ++i) {
-            const ParamInfo& size = *bases[i].params.table().find("map_size");
-            if (size.type == shadow::ParamType::integer) add(out, with(bases[i], size, 2 * bases[i].params.get(size)));
-        }
+    // several layers again with half as wide ones: four of them have the texels of one
+    for (size_t i = 1; i < bases.size(); ++i)
+        if (const ParamInfo* size = bases[i].params.table().find("map_size"); size && is_amount(*size))
+            add(out, with(bases[i], *size, std::round(0.5 * bases[i].params.get(*size))));
+    // the cheap ones first, so that the others need not be measured where these cost too much already
+    const auto texels = [](const Choice& c) {
+        const ParamInfo* size = c.params.table().find("map_size");
+        return size ? c.params.get(*size) : 0.0;
+    };
+    std::stable_sort(out.begin(), out.end(), [&](const Choice& a, const Choice& b) { return texels(a) < texels(b); });
     return out;
+}
+
+bool costs_more(const Choice& a, const Choice& b)
+{
+    if (a.info != b.info) return false;
+    bool more = false;
+    for (const ParamInfo& p : a.params.table().fields) {
+        const double from = b.params.get(p), to = a.params.get(p);
+        if (from == to) continue;
+        if (!is_amount(p) || to < from) return false;
+        more = true;
+    }
+    return more;
 }
 
 std::vector<Candidate> find_candidates(const gpu::Device& device, const Stage& stage, const Features& features, Prefer prefer)

@@ -68,7 +68,7 @@ TEST(Goal, RefusesConstraintsInASentence)
 
 TEST(Goal, TakesQuantitiesFromRuns)
 {
-    Run run;
+    lab::Run run;
     run.technique_ms = 3, run.bytes = 1000, run.metrics = {{"leak", 0.25}, {"bias", -0.5}};
     EXPECT_EQ(quantity_of(run, "time"), 3);
     EXPECT_EQ(quantity_of(run, "bytes"), 1000);
