@@ -25,6 +25,8 @@ struct Picture {
 };
 lab::StageOptions stage_options(const Picture&); ///< throws base::Error on a malformed size
 
+std::string technique_id(const std::string& choice); ///< of "id:name=value", or of a preset "@file"
+
 struct List {
     Common common;
     bool scenes = false;

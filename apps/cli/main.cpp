@@ -34,10 +34,12 @@ void add_picture(CLI::App& app, cli::Picture& picture, bool camera = true)
 }
 
 /// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs.
-std::vector<std::string> technique_options(const CLI::App& app, const std::string& technique)
+std::vector<std::string> technique_options(const CLI::App& app, const std::string& choice)
 {
     std::vector<std::string> out;
     const std::vector<std::string> rest = app.remaining();
+    if (rest.empty()) return out;
+    const std::string technique = cli::technique_id(choice);
     for (size_t i = 0; i < rest.size(); ++i) {
         const std::string& word = rest[i];
         if (word.rfind("--" + technique + ".", 0) != 0)
