@@ -25,6 +25,8 @@ struct Picture {
 };
 lab::StageOptions stage_options(const Picture&); ///< throws base::Error on a malformed size
 
+std::string technique_id(const std::string& choice); ///< of "id:name=value", or of a preset "@file"
+
 struct List {
     Common common;
     bool scenes = false;
@@ -81,6 +83,24 @@ struct Merge {
     std::vector<std::string> files;
 };
 int merge(const Merge&);
+
+struct Tune {
+    Common common;
+    std::string technique, output, reference, minimise = "leak+acne", size = "320x180";
+    std::vector<std::string> scenes, validation, lights, under, vary;
+    int budget = 100, seed = 1, truth_samples = 64;
+};
+int tune(const Tune&);
+
+struct Advise {
+    Common common;
+    Picture picture; ///< all but its scene
+    std::vector<std::string> scenes, budget, without;
+    std::string prefer = "any", metric = "mae", reference = "shadow_map:map_size=2048", output;
+    bool exhaustive = false;
+    int truth_samples = 64, repeats = 3;
+};
+int advise(const Advise&);
 
 struct Slice {
     Common common;

@@ -34,10 +34,12 @@ void add_picture(CLI::App& app, cli::Picture& picture, bool camera = true)
 }
 
 /// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs.
-std::vector<std::string> technique_options(const CLI::App& app, const std::string& technique)
+std::vector<std::string> technique_options(const CLI::App& app, const std::string& choice)
 {
     std::vector<std::string> out;
     const std::vector<std::string> rest = app.remaining();
+    if (rest.empty()) return out;
+    const std::string technique = cli::technique_id(choice);
     for (size_t i = 0; i < rest.size(); ++i) {
         const std::string& word = rest[i];
         if (word.rfind("--" + technique + ".", 0) != 0)
@@ -105,6 +107,54 @@ void add_merge(CLI::App& app, cli::Merge& merge)
     app.add_option("files", merge.files, "The shards' results.I-of-N.jsonl files")->required();
     app.add_option("-o,--output", merge.output, "Folder for results, tables and plots (default: that of the first file)");
     add_common(app, merge.common, false);
+}
+
+void add_tune(CLI::App& app, cli::Tune& tune)
+{
+    app.add_option("technique", tune.technique, "Technique, by its id; parameters after colons are where the search begins, and stay")
+        ->required();
+    app.add_option("scenes", tune.scenes, "Scene files that say \"tuning\": true, as experiments/tuning/*.json")->required();
+    app.add_option("--vary", tune.vary, "Parameters to search (default: all that are not set after a colon)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--light", tune.lights, "A light for every scene, as elsewhere (default: each scene's first); may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--minimise,--minimize", tune.minimise, "Metrics whose sum is to be small")->capture_default_str();
+    app.add_option("--under", tune.under, "A bound, as time<2x (of the start's), bytes<64MiB, leak<0.001; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--reference", tune.reference, "The technique that filter metrics are measured against");
+    app.add_option("--budget", tune.budget, "Evaluations, each on all scenes")->check(CLI::Range(1, 100000))->capture_default_str();
+    app.add_option("--seed", tune.seed, "Another one searches elsewhere")->check(CLI::NonNegativeNumber)->capture_default_str();
+    app.add_option("--validate", tune.validation, "Scenes that the search does not see, for the preset's own table");
+    app.add_option("--size", tune.size, "Width and height in pixels")->capture_default_str();
+    app.add_option("--truth-samples", tune.truth_samples, "Light samples a pixel of the truth")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option("-o,--output", tune.output, "The preset, a .json file")->required();
+    add_common(app, tune.common);
+}
+
+void add_advise(CLI::App& app, cli::Advise& advise)
+{
+    app.add_option("scenes", advise.scenes, "Built-in scenes, .glb or .gltf files, or scene .json files")->required();
+    app.add_option("--camera", advise.picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
+    app.add_option("--light", advise.picture.lights, "A light of the scene by name, or kind,key=value,... (default: the first)")
+        ->expected(1);
+    app.add_option("--size", advise.picture.size, "Width and height in pixels")->capture_default_str();
+    app.add_option("--budget", advise.budget, "4ms, 2x (of the reference's time) or 64MiB; may be repeated (default: whatever it costs)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--prefer", advise.prefer, "exact, soft or stable techniques alone, or any")->capture_default_str();
+    app.add_option("--without", advise.without, "Techniques that are no candidates")->delimiter(',')->allow_extra_args(false);
+    app.add_option("--metric", advise.metric, "What an error is: metrics joined by +")->capture_default_str();
+    app.add_option("--reference", advise.reference, "The technique that 2x is twice of")->capture_default_str();
+    app.add_flag("--exhaustive", advise.exhaustive, "Measure all candidates at full size too, and say what the choice loses");
+    app.add_option("--truth-samples", advise.truth_samples, "Light samples a pixel of the truth")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option("--repeats", advise.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(2, 10000))->capture_default_str();
+    app.add_option("-o,--output", advise.output, "Also a table of all scenes, a .md file");
+    add_common(app, advise.common);
 }
 
 int run(int argc, char** argv)
@@ -212,6 +262,15 @@ int run(int argc, char** argv)
     add_sweep(*sweep_app, sweep);
     add_merge(*merge_app, merge);
 
+    cli::Tune tune;
+    CLI::App* tune_app = app.add_subcommand("tune", "Search parameters that make an error small: writes a preset");
+    add_tune(*tune_app, tune);
+
+    cli::Advise advise;
+    advise.picture.size = "640x360";
+    CLI::App* advise_app = app.add_subcommand("advise", "Which technique for this scene, light and budget, and why");
+    add_advise(*advise_app, advise);
+
     cli::Folder fresh, picture, docs, bless;
     CLI::App* new_app = app.add_subcommand("new", "Start a technique: copies the template to techniques/ID");
     new_app->add_option("id", fresh.ids, "Its id: lower-case letters, digits, underscores")->required()->expected(1);
@@ -258,6 +317,8 @@ int run(int argc, char** argv)
     if (*curves_app) return cli::curves(curves);
     if (*sweep_app) return cli::sweep(sweep);
     if (*merge_app) return cli::merge(merge);
+    if (*tune_app) return cli::tune(tune);
+    if (*advise_app) return cli::advise(advise);
     if (*new_app) return cli::new_technique(fresh);
     if (*picture_app) return cli::picture(picture);
     if (*docs_app) return cli::docs(docs);

@@ -30,6 +30,8 @@ lab::StageOptions stage_options(const Picture& picture)
     return out;
 }
 
+std::string technique_id(const std::string& choice) { return std::string(lab::parse_choice(choice).info->id); }
+
 namespace {
 
 void check_aovs(const std::vector<std::string>& names)

@@ -140,6 +140,16 @@ private:
         return own.empty() ? std::vector<Json>{otherwise} : own;
     }
 
+    /// A preset may lie beside the experiment.
+    std::string beside_file(const std::string& choice) const
+    {
+        if (!choice.starts_with('@')) return choice;
+        const std::string name = choice.substr(1, choice.find(':') - 1);
+        const std::filesystem::path beside = out_.file.parent_path() / name;
+        if (std::filesystem::exists(name) || !std::filesystem::is_regular_file(beside)) return choice;
+        return "@" + beside.string() + choice.substr(1 + name.size());
+    }
+
     Json fill(const Json& value, const AxisValues& axes) { return substituted(value, axes, used_); }
 
     void add(const Json& scene_in, const Json& camera_in, const Json& light_in, const Json& size_in, const AxisValues& axes, size_t index)
@@ -152,12 +162,12 @@ private:
         const Named light = named(fill(light_in, axes), "light", {"light", "label"}, file);
         const std::string size = string_of(fill(size_in, axes), "size");
         const Named technique = named(fill(techniques_[index], axes), "technique", {"technique", "label", "params", "reference"}, file);
-        Cell cell{{}, {}, parse_choice(technique.text), {}, {}};
+        Cell cell{{}, {}, parse_choice(beside_file(technique.text)), {}, {}};
         if (technique.object.contains("params")) cell.choice.params.set_json(technique.object["params"]);
         const Json reference = technique.object.contains("reference") ? technique.object["reference"] : json_.value("reference", Json());
         if (!reference.is_null()) {
             const Named r = named(fill(reference, axes), "technique", {"technique", "params"}, file);
-            cell.reference = parse_choice(r.text);
+            cell.reference = parse_choice(beside_file(r.text));
             if (r.object.contains("params")) cell.reference->params.set_json(r.object["params"]);
         }
         cell.stage.scene = scene.text;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/error.h"
 #include "base/hash.h"
 #include "lab/experiment_expand.h"
 #include "truth/cache.h"
@@ -25,6 +26,9 @@ void open_stages(Experiment& out)
     for (Cell& cell : out.cells) {
         if (scene_text(cell) != opened) {
             stage = open_stage(cell.stage);
+            if (stage.scene.tuning)
+                base::fail(
+                    "{} is a scene for tuning, which published tables may not use; name one without \"tuning\": true", cell.stage.scene);
             opened = scene_text(cell), aimed.clear();
         }
         if (stage_text(cell) != aimed) {

@@ -18,7 +18,8 @@ struct Choice {
     const shadow::TechniqueInfo* info;
     shadow::ParamValues params;
 };
-/// "pcss" or "pcss:light_radius=0.2:filter_taps=16". Throws base::Error.
+Choice default_choice(const shadow::TechniqueInfo&);
+/// "pcss", "pcss:light_radius=0.2:filter_taps=16", or "@pcss.json", a preset's file, which parameters may follow too. Throws base::Error.
 Choice parse_choice(const std::string& text);
 std::string choice_text(const Choice&); ///< what parse_choice reads: the id, and the parameters that differ from their defaults
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/compare.h"
+#include "lab/features.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Which technique, with which parameters, for this scene, light and budget (docs/tune-and-advise.md).
+namespace gnomon::lab {
+
+enum class Prefer { any, exact, soft, stable };
+Prefer parse_prefer(const std::string&); ///< throws base::Error
+
+/// A technique that takes the light, with some of its parameters changed.
+struct Candidate {
+    Choice choice;
+    std::string left_out; ///< why it is no candidate although its light fits; empty = it is one
+};
+
+/// From the registry by what techniques say of themselves, in settings that follow from the names of their parameters; those that were left
+/// out come once each, with the reason. Nothing here names a technique.
+std::vector<Candidate> find_candidates(const gpu::Device&, const Stage&, const Features&, Prefer);
+/// The settings of one technique, those with small maps first.
+std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer);
+
+/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, and else the same.
+bool costs_more(const Choice& a, const Choice& b);
+
+struct AdviseOptions {
+    StageOptions stage; ///< its first light counts
+    std::vector<std::string> budget; ///< parse_budget; all hold; empty = whatever it costs
+    Prefer prefer = Prefer::any;
+    std::string metric = "mae"; ///< parse_sum: what an error is
+    std::string reference = "shadow_map:map_size=2048"; ///< what "2x" is twice of
+    std::vector<std::string> without; ///< ids that are no candidates, as an engine may lack what they need
+    bool exhaustive = false; ///< measure every candidate at full size as well, and say what the choice lost
+    int truth_samples = 64, repeats = 3;
+    std::filesystem::path truth_cache; ///< empty = the user's cache
+};
+
+struct Measured {
+    Choice choice;
+    double error = 0, ms = 0, excess = 0; ///< excess: by which part it is over the budget
+    uint64_t bytes = 0;
+};
+
+struct Advice {
+    std::string scene, camera, light, device, driver, commit, metric;
+    std::vector<std::string> budget;
+    base::Size size;
+    Features features;
+    double reference_ms = 0;
+    size_t candidates = 0, finished = 0; ///< settings that began, and those that were measured at full size
+    std::vector<Measured> front; ///< errors against times of the finished, fastest first
+    std::optional<Measured> chosen; ///< none where nothing keeps the budget
+    std::string nothing; ///< then: a sentence that names the nearest
+    std::vector<std::string> reasons, left_out; ///< sentences
+    std::optional<Measured> best; ///< of all candidates at full size; only where exhaustive
+    double regret = 0; ///< by which part the choice's error is above the best one's
+};
+
+/// Throws base::Error on names that do not exist and where no technique can run.
+Advice advise(gpu::Device&, const AdviseOptions&);
+
+nlohmann::ordered_json advice_json(const Advice&);
+std::string advice_text(const Advice&); ///< for a terminal
+std::string advice_page(const std::vector<Advice>&); ///< a table of choices, best ones and regrets, as Markdown
+
+} // namespace gnomon::lab

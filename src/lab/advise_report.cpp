@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/advise.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace gnomon::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json measured_json(const Measured& m, const std::string& metric)
+{
+    return {{"technique", m.choice.info->id}, {"choice", choice_text(m.choice)}, {"params", m.choice.params.json()}, {metric, m.error},
+        {"ms", m.ms}, {"bytes", m.bytes}, {"within_budget", m.excess == 0}};
+}
+
+double mib(const Measured& m) { return double(m.bytes) / 1048576.0; }
+
+} // namespace
+
+Json advice_json(const Advice& a)
+{
+    Json out = {{"scene", a.scene}, {"camera", a.camera}, {"light", a.light}, {"size", {a.size.width, a.size.height}}, {"device", a.device},
+        {"driver", a.driver}, {"commit", a.commit}, {"metric", a.metric}, {"budget", a.budget}, {"features", features_json(a.features)},
+        {"candidates", a.candidates}, {"measured_at_full_size", a.finished}};
+    if (a.reference_ms > 0) out["reference_ms"] = a.reference_ms;
+    if (a.chosen)
+        out["choice"] = measured_json(*a.chosen, a.metric);
+    else
+        out["nothing"] = a.nothing;
+    out["front"] = Json::array();
+    for (const Measured& m : a.front) out["front"].push_back(measured_json(m, a.metric));
+    if (a.best) out["best"] = measured_json(*a.best, a.metric);
+    if (a.best && a.chosen) out["regret"] = a.regret;
+    out["reasons"] = a.reasons, out["left_out"] = a.left_out;
+    return out;
+}
+
+std::string advice_text(const Advice& a)
+{
+    std::string out = fmt::format("{}, {}, {}, {}x{} on {}\n", a.scene, a.camera, a.light, a.size.width, a.size.height, a.device);
+    for (const std::string& reason : a.reasons) out += fmt::format("- {}\n", reason);
+    out += fmt::format("  {:>10} {:>9} {:>9}  {}\n", a.metric, "ms", "MiB", "errors against times, the front");
+    for (const Measured& m : a.front)
+        out += fmt::format(
+            "  {:10.5f} {:9.3f} {:9.2f}  {}{}\n", m.error, m.ms, mib(m), choice_text(m.choice), m.excess > 0 ? "  (over the budget)" : "");
+    if (a.chosen) out += fmt::format("take {}\n", choice_text(a.chosen->choice));
+    if (a.best && a.chosen)
+        out += fmt::format("of all {} at full size, {} errs least within the budget: {} {:.5f}; the choice loses {:.1f} %\n", a.candidates,
+            choice_text(a.best->choice), a.metric, a.best->error, 100.0 * a.regret);
+    return out;
+}
+
+std::string advice_page(const std::vector<Advice>& all)
+{
+    if (all.empty()) return "";
+    const bool exhaustive = std::any_of(all.begin(), all.end(), [](const Advice& a) { return a.best.has_value(); });
+    const Advice& first = all.front();
+    std::string out
+        = fmt::format("Device: {}, {}. Budget: {}. Error: {}.\n\n| scene | light | of settings, at full size | choice | {} | ms | MiB |{}\n"
+                      "| --- | --- | --- | --- | --- | --- | --- |{}\n",
+            first.device, first.driver, first.budget.empty() ? "none" : fmt::format("{}", fmt::join(first.budget, ", ")), first.metric,
+            first.metric, exhaustive ? fmt::format(" best of all | its {} | its ms | regret |", first.metric) : "",
+            exhaustive ? " --- | --- | --- | --- |" : "");
+    double worst = 0;
+    for (const Advice& a : all) {
+        out += fmt::format("| {} | {} | {}, {} | ", a.scene, a.light, a.candidates, a.finished);
+        if (a.chosen)
+            out += fmt::format(
+                "`{}` | {:.5f} | {:.2f} | {:.1f} |", choice_text(a.chosen->choice), a.chosen->error, a.chosen->ms, mib(*a.chosen));
+        else
+            out += fmt::format("{} | | | |", a.nothing);
+        if (a.best && a.chosen) {
+            out += fmt::format(
+                " `{}` | {:.5f} | {:.2f} | {:.1f} % |", choice_text(a.best->choice), a.best->error, a.best->ms, 100.0 * a.regret);
+            worst = std::max(worst, a.regret);
+        } else if (exhaustive)
+            out += " | | | |";
+        out += "\n";
+    }
+    if (exhaustive) out += fmt::format("\nLargest regret: {:.1f} %.\n", 100.0 * worst);
+    return out;
+}
+
+} // namespace gnomon::lab

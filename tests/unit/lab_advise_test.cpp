@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/advise.h"
+
+#include "base/error.h"
+#include "lab/halving.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace gnomon::lab {
+namespace {
+
+Stage stage_of(const std::string& scene, const std::string& light, StageOptions* options = nullptr)
+{
+    StageOptions o{.scene = scene, .lights = {light}, .size = {320, 180}};
+    if (options) *options = o;
+    return open_stage(o);
+}
+
+Features features_of(const std::string& scene, const std::string& light)
+{
+    StageOptions options;
+    const Stage stage = stage_of(scene, light, &options);
+    return find_features(stage, options);
+}
+
+TEST(Features, TellMaterialsAndOpenMeshes)
+{
+    const Features tree = features_of("tree", "sun,elevation=50,angle=0");
+    EXPECT_GT(tree.masked, 0u);
+    EXPECT_EQ(tree.see_through, 0u);
+    EXPECT_EQ(tree.triangles, 35116u);
+    EXPECT_GT(features_of("stacked_panes", "sun,elevation=50,angle=0").see_through, 0u);
+    const Features balls = features_of("balls", "sun,elevation=50,angle=0");
+    EXPECT_EQ(balls.masked + balls.see_through, 0u);
+    EXPECT_LT(balls.open_meshes, balls.meshes);
+    EXPECT_FALSE(balls.soft);
+    EXPECT_EQ(balls.penumbra_pixels, 0);
+    EXPECT_GT(balls.shadowed, 0.02);
+    EXPECT_FALSE(balls.moves);
+    EXPECT_EQ(features_of("closed_box", "sun,elevation=50,angle=0").shadowed, 1);
+}
+
+TEST(Features, EstimateWiderPenumbraeForWiderLights)
+{
+    const Features narrow = features_of("balls", "sun,elevation=50,angle=0.5"), wide = features_of("balls", "sun,elevation=50,angle=10");
+    EXPECT_TRUE(narrow.soft);
+    EXPECT_GT(wide.penumbra_pixels, 3 * narrow.penumbra_pixels);
+    EXPECT_GT(wide.penumbra_pixels, 4);
+    EXPECT_LT(wide.penumbra_pixels, 100);
+}
+
+TEST(Features, KnowAnOpenMesh)
+{
+    scene::Mesh tetrahedron;
+    tetrahedron.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    tetrahedron.indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    EXPECT_FALSE(is_open(tetrahedron));
+    // corners of their own for each triangle close it all the same
+    scene::Mesh split = tetrahedron;
+    split.positions.clear();
+    for (uint32_t& i : split.indices) {
+        split.positions.push_back(tetrahedron.positions[i]);
+        i = uint32_t(split.positions.size() - 1);
+    }
+    EXPECT_FALSE(is_open(split));
+    tetrahedron.indices.resize(9);
+    EXPECT_TRUE(is_open(tetrahedron));
+}
+
+TEST(Candidates, FollowFromWhatParametersAreCalled)
+{
+    const Stage sun = stage_of("plane", "sun,elevation=50,angle=0"), point = stage_of("plane", "point,position=0/3/0,radius=0");
+    for (const shadow::TechniqueInfo* info : shadow::techniques()) {
+        const std::vector<Choice> all = settings(*info, sun.lights.front(), Prefer::any);
+        ASSERT_FALSE(all.empty()) << info->id;
+        EXPECT_LE(all.size(), 20u) << info->id;
+        std::set<std::string> texts;
+        for (const Choice& c : all) EXPECT_TRUE(texts.insert(choice_text(c)).second) << choice_text(c);
+        EXPECT_TRUE(texts.count(std::string(info->id))) << "the defaults of " << info->id << " are missing";
+        const shadow::ParamInfo* size = info->params().find("map_size");
+        if (size && size->type == shadow::ParamType::integer) EXPECT_GE(all.size(), 3u) << info->id;
+        for (const Choice& c : settings(*info, point.lights.front(), Prefer::any))
+            EXPECT_EQ(choice_text(c).find("sdsm"), std::string::npos) << "sdsm is for suns";
+        for (const Choice& c : settings(*info, sun.lights.front(), Prefer::stable)) {
+            const std::string text = choice_text(c);
+            EXPECT_TRUE(text.find("fit=cascades") == std::string::npos || text.find("stable_cascades=on") != std::string::npos) << text;
+        }
+    }
+}
+
+TEST(Candidates, CostMoreWithMoreOfTheSame)
+{
+    EXPECT_TRUE(costs_more(parse_choice("pcf:map_size=2048"), parse_choice("pcf")));
+    EXPECT_TRUE(costs_more(parse_choice("pcf:map_size=2048:taps=64"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf:map_size=2048")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:taps=8"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:fit=sdsm"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048"), parse_choice("shadow_map")));
+}
+
+TEST(Candidates, PreferencesHaveNames)
+{
+    EXPECT_EQ(parse_prefer("stable"), Prefer::stable);
+    EXPECT_THROW(parse_prefer("stabel"), base::Error);
+}
+
+TEST(Halving, FrontHoldsWhatNothingBeats)
+{
+    const std::vector<Trial> trials = {{5, 1}, {4, 2}, {4, 3}, {1, 9}, {2, 4}, {6, 1}, {1, 10}};
+    EXPECT_EQ(pareto_front(trials), (std::vector<size_t>{0, 1, 4, 3}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Halving, MeasuresFewDearlyAndKeepsTheBest)
+{
+    constexpr size_t count = 64;
+    std::vector<size_t> made(3, 0);
+    const auto measure = [&](size_t i, int round) {
+        ++made[size_t(round)];
+        // small pictures blur the order of neighbours; 37 is the best
+        const double noise = round == 2 ? 0 : 0.01 * double((i * 7) % 5);
+        return std::optional(Trial{0.05 * std::abs(double(i) - 37) + noise, 1 + 0.001 * double(i), 0});
+    };
+    const std::vector<size_t> last = halve({.candidates = count, .measure = measure});
+    EXPECT_NE(std::find(last.begin(), last.end(), 37u), last.end());
+    EXPECT_EQ(made, (std::vector<size_t>{64, 32, 16}));
+    EXPECT_EQ(last.size(), 16u);
+    EXPECT_TRUE(std::is_sorted(last.begin(), last.end()));
+}
+
+TEST(Halving, DropsWhatIsOverTheBudgetAndWhatCannotRun)
+{
+    const auto measure = [](size_t i, int) -> std::optional<Trial> {
+        if (i == 0) return {};
+        const double time = double(i);
+        return Trial{1.0 / time, time, time > 10 ? time / 10 - 1 : 0.0};
+    };
+    const std::vector<size_t> last = halve({.candidates = 40, .measure = measure});
+    EXPECT_NE(std::find(last.begin(), last.end(), 10u), last.end()) << "the best within";
+    for (const size_t i : last) {
+        EXPECT_LE(i, 12u) << "far over the budget";
+        EXPECT_NE(i, 0u);
+    }
+}
+
+TEST(Halving, GoesOnWithTheNearestWhereNothingIsWithin)
+{
+    const auto measure = [](size_t i, int) { return std::optional(Trial{1, 1, 5.0 + double(i)}); };
+    const std::vector<size_t> last = halve({.candidates = 32, .measure = measure});
+    EXPECT_EQ(last.front(), 0u);
+    EXPECT_EQ(last.size(), 8u);
+    EXPECT_TRUE(halve({.candidates = 0, .measure = measure}).empty());
+}
+
+} // namespace
+} // namespace gnomon::lab
