@@ -17,8 +17,8 @@ struct Trial {
 struct HalvingOptions {
     size_t candidates = 0;
     int rounds = 3; ///< each costs more than the one before; the last is the true measurement
-    size_t least = 4; ///< that reach the last round, where there are as many
-    double slack = 0.25; ///< over the budget by more than this in a cheap round, whose pictures are smaller: out
+    size_t least = 8; ///< that reach the last round, where there are as many
+    double slack = 1.0; ///< over the budget by more than this in a cheap round, whose pictures are smaller: out
     std::function<std::optional<Trial>(size_t candidate, int round)> measure; ///< nothing: it cannot run
 };
 
