@@ -89,7 +89,7 @@ private:
     size_t expected() const
     {
         size_t count = options_.exhaustive ? candidates_.size() : 0;
-        for (size_t left = candidates_.size(), round = 0; round < rounds; ++round, left = std::max<size_t>(4, (left + 1) / 2))
+        for (size_t left = candidates_.size(), round = 0; round < rounds; ++round, left = std::max(HalvingOptions().least, (left + 1) / 2))
             count += left;
         return count;
     }

@@ -36,15 +36,16 @@ struct PositionHash {
 struct Crossings {
     size_t pixels = 0, edges = 0;
 
-    void line(const std::vector<float>& values)
+    struct Sample {
+        float visibility;
+        bool joined; ///< on one surface with the sample before
+    };
+    void line(const std::vector<Sample>& samples)
     {
-        float last = -1; // the last pixel that was fully lit or dark; -1: none yet
+        float last = -1; // the last one that was fully lit or dark; -1: none yet
         size_t between = 0;
-        for (const float v : values) {
-            if (v < 0) { // background
-                last = -1, between = 0;
-                continue;
-            }
+        for (const auto& [v, joined] : samples) {
+            if (!joined) last = -1, between = 0; // from one surface to another there is no penumbra to be seen whole
             if (v > 0.0f && v < 1.0f) {
                 ++between;
                 continue;
@@ -60,22 +61,28 @@ struct Crossings {
 };
 
 /// Edges run in all directions: a row crosses upright ones at their width and level ones at a longer way, a column the other way round.
-double penumbra_width(const base::Picture& visibility, const std::vector<uint32_t>& primitive)
+double penumbra_width(const base::Picture& visibility, const truth::Primary& seen)
 {
     const base::Size size = visibility.size;
-    const auto value = [&](int x, int y) {
-        if (primitive[size_t(y) * size_t(size.width) + size_t(x)] == truth::no_primitive) return -1.0f;
-        return visibility.at(x, y);
+    const auto index = [&](int x, int y) { return size_t(y) * size_t(size.width) + size_t(x); };
+    const auto normal
+        = [&](size_t i) { return vec3(seen.normal.values[3 * i], seen.normal.values[3 * i + 1], seen.normal.values[3 * i + 2]); };
+    const auto sample = [&](size_t at, size_t before) {
+        const float d = seen.depth.values[at], from = seen.depth.values[before];
+        const bool both = seen.primitive[at] != truth::no_primitive && seen.primitive[before] != truth::no_primitive;
+        return Crossings::Sample{
+            visibility.values[at], both && std::abs(d - from) < 0.1f * d && glm::dot(normal(at), normal(before)) > 0.85f};
     };
     Crossings rows, columns;
+    std::vector<Crossings::Sample> line;
     for (int y = 0; y < size.height; ++y) {
-        std::vector<float> line;
-        for (int x = 0; x < size.width; ++x) line.push_back(value(x, y));
+        line.clear();
+        for (int x = 0; x < size.width; ++x) line.push_back(sample(index(x, y), index(std::max(x - 1, 0), y)));
         rows.line(line);
     }
     for (int x = 0; x < size.width; ++x) {
-        std::vector<float> line;
-        for (int y = 0; y < size.height; ++y) line.push_back(value(x, y));
+        line.clear();
+        for (int y = 0; y < size.height; ++y) line.push_back(sample(index(x, y), index(x, std::max(y - 1, 0))));
         columns.line(line);
     }
     if (!rows.edges || !columns.edges) return std::max(rows.width(), columns.width());
@@ -97,7 +104,7 @@ void add_picture(const Stage& stage, Features& out)
     for (size_t i = 0; i < primary.primitive.size(); ++i)
         if (primary.primitive[i] != truth::no_primitive) ++visible, dark += 1.0 - double(seen.mean.values[i]);
     out.shadowed = visible ? dark / double(visible) : 0.0;
-    if (out.soft) out.penumbra_pixels = penumbra_width(seen.mean, primary.primitive) * double(full.height) / double(size.height);
+    if (out.soft) out.penumbra_pixels = penumbra_width(seen.mean, primary) * double(full.height) / double(size.height);
 }
 
 bool same_form(const scene::Scene& a, const scene::Scene& b)

@@ -31,29 +31,40 @@ std::vector<size_t> by_fronts(const std::vector<Trial>& trials)
     return out;
 }
 
-/// The better `keep` of them, as indices into `trials`.
+/// Some of the trials, the most promising first: alternately the least error and the foremost front.
+std::vector<size_t> ranked(const std::vector<Trial>& trials, const std::vector<size_t>& some)
+{
+    std::vector<Trial> present;
+    for (const size_t i : some) present.push_back(trials[i]);
+    std::vector<size_t> errors = counted(present.size());
+    std::stable_sort(errors.begin(), errors.end(), [&](size_t a, size_t b) { return present[a].error < present[b].error; });
+    const std::vector<size_t> fronts = by_fronts(present);
+    std::vector<bool> taken(present.size(), false);
+    std::vector<size_t> out;
+    for (size_t i = 0; i < present.size(); ++i)
+        for (const size_t one : {errors[i], fronts[i]})
+            if (!taken[one]) taken[one] = true, out.push_back(some[one]);
+    return out;
+}
+
+/// The better `keep` of them, as indices into `trials`: two of those within the budget for each one that is a little over it, since what is
+/// dearer mostly errs less and would crowd out the rest.
 std::vector<size_t> chosen(const std::vector<Trial>& trials, size_t keep, double slack)
 {
-    std::vector<size_t> order = counted(trials.size());
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return trials[a].excess < trials[b].excess; });
-    const auto over = std::find_if(order.begin(), order.end(), [&](size_t i) { return trials[i].excess > slack; });
-    if (over == order.begin()) {
+    std::vector<size_t> within, over, order = counted(trials.size());
+    for (const size_t i : order)
+        if (trials[i].excess <= slack) (trials[i].excess > 0 ? over : within).push_back(i);
+    if (within.empty() && over.empty()) {
+        std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return trials[a].excess < trials[b].excess; });
         order.resize(std::min(keep, order.size()));
         return order;
     }
-    order.erase(over, order.end());
-    std::sort(order.begin(), order.end());
-    if (order.size() <= keep) return order;
-    std::vector<Trial> within;
-    for (const size_t i : order) within.push_back(trials[i]);
-    std::vector<size_t> errors = counted(within.size());
-    std::stable_sort(errors.begin(), errors.end(), [&](size_t a, size_t b) { return within[a].error < within[b].error; });
-    const std::vector<size_t> fronts = by_fronts(within);
-    std::vector<bool> taken(within.size(), false);
+    within = ranked(trials, within), over = ranked(trials, over);
     std::vector<size_t> out;
-    for (size_t i = 0; out.size() < keep; ++i)
-        for (const size_t one : {errors[i], fronts[i]})
-            if (!taken[one] && out.size() < keep) taken[one] = true, out.push_back(order[one]);
+    for (size_t i = 0, j = 0; out.size() < keep && (i < within.size() || j < over.size());) {
+        const bool next_within = i < within.size() && (j >= over.size() || i <= 2 * j + 1);
+        out.push_back(next_within ? within[i++] : over[j++]);
+    }
     return out;
 }
 

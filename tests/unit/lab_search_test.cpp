@@ -4,6 +4,7 @@
 #include "lab/search_space.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <set>
