@@ -47,6 +47,9 @@ std::vector<PlotPoint> points_of(const PlotSpec& plot, const std::vector<Row>& r
         const double deviation = plot.y == "ms" && at.rows.size() == 1 ? at.rows.front().number("ms_deviation").value_or(0) : 0;
         out.push_back({measured ? "" : at.key.front(), x.value_or(NAN), *y, deviation});
     }
+    // a line goes from left to right, in whatever order the runs came
+    if (!measured && std::none_of(out.begin(), out.end(), [](const PlotPoint& p) { return std::isnan(p.x); }))
+        std::stable_sort(out.begin(), out.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     return out;
 }
 
