@@ -44,7 +44,10 @@ TEST(Goal, ReadsConstraintsWithTheirUnits)
 
 TEST(Goal, RefusesConstraintsInASentence)
 {
-    for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+    struct Bad {
+        std::string text, says;
+    };
+    for (const Bad& bad : std::vector<Bad>{
              {"time", "is no constraint"},
              {"tiem<2x", "did you mean 'time'"},
              {"time<2", "lacks a unit"},
@@ -57,8 +60,8 @@ TEST(Goal, RefusesConstraintsInASentence)
              {"bytes<64MB", "unknown unit 'MB'"},
              {"", "is no constraint"},
          })
-        EXPECT_NE(complaint([&] { parse_constraint(text); }).find(says), std::string::npos)
-            << text << ": " << complaint([&] { parse_constraint(text); });
+        EXPECT_NE(complaint([&] { parse_constraint(bad.text); }).find(bad.says), std::string::npos)
+            << bad.text << ": " << complaint([&] { parse_constraint(bad.text); });
     EXPECT_NE(complaint([] { parse_budget("4"); }).find("lacks a unit"), std::string::npos);
     EXPECT_NE(complaint([] { parse_budget("cheap"); }).find("needs a number"), std::string::npos);
     EXPECT_NE(complaint([] { parse_sum("leak+akne"); }).find("did you mean 'acne'"), std::string::npos);
