@@ -81,7 +81,8 @@ TEST(Candidates, FollowFromWhatParametersAreCalled)
         std::set<std::string> texts;
         for (const Choice& c : all) EXPECT_TRUE(texts.insert(choice_text(c)).second) << choice_text(c);
         EXPECT_TRUE(texts.count(std::string(info->id))) << "the defaults of " << info->id << " are missing";
-        const shadow::ParamInfo* size = info->params().find("map_size");
+        const shadow::ParamTable table = info->params();
+        const shadow::ParamInfo* size = table.find("map_size");
         if (size && size->type == shadow::ParamType::integer) {
             EXPECT_GE(all.size(), 3u) << info->id;
         }
