@@ -80,16 +80,7 @@ Experiment parse(const Json& json, const fs::path& file)
 Experiment read_experiment(const fs::path& file)
 {
     const std::string text = base::read_text(file);
-    try {
-        return parse(Json::parse(text), file);
-    } catch (const nlohmann::json::exception& e) {
-        base::fail("{}: {}", file.string(), e.what());
-    } catch (const base::Error& e) {
-        // what a deeper part found lacks the place
-        const std::string what = e.what(), place = file.string();
-        if (what.rfind(place, 0) == 0) throw;
-        base::fail("{}: {}", place, what);
-    }
+    return naming(file, [&] { return parse(Json::parse(text), file); });
 }
 
 } // namespace gnomon::lab

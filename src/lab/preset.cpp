@@ -64,7 +64,7 @@ void write_preset(const std::filesystem::path& file, const Preset& preset) { bas
 Choice read_preset_choice(const std::filesystem::path& file)
 {
     const std::string text = base::read_text(file, uint64_t(1) << 20);
-    try {
+    return naming(file, [&] {
         const Json json = Json::parse(text);
         known_keys(json,
             {"format", "technique", "params", "vary", "minimise", "under", "reference", "tuning", "validation", "evaluations", "seed",
@@ -76,13 +76,7 @@ Choice read_preset_choice(const std::filesystem::path& file)
         Choice out{&info, shadow::ParamValues(info.params())};
         out.params.set_json(json.value("params", Json::object()));
         return out;
-    } catch (const nlohmann::json::exception& e) {
-        base::fail("{}: {}", file.string(), e.what());
-    } catch (const base::Error& e) {
-        const std::string what = e.what(), place = file.string();
-        if (what.rfind(place, 0) == 0) throw;
-        base::fail("{}: {}", place, what);
-    }
+    });
 }
 
 } // namespace gnomon::lab

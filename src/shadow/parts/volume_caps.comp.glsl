@@ -3,22 +3,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-#include "src/shadow/parts/volume_sides.glsl"
+#include "src/shadow/parts/volume_triangles.glsl"
 
 layout(constant_id = 1) const bool COUNTED = false;
 
-layout(local_size_x = VOLUME_GROUP) in;
-
-layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Indices { uint indices[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Blocks { VolumeBlock blocks[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Sides { int sides[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Caps { VolumeCap caps[]; };
 layout(set = 0, binding = 6, scalar) buffer Draws { uint draws[4 * VOLUME_DRAWS]; };
 layout(set = 0, binding = 7, scalar) buffer Work { VolumeWork work; };
 layout(set = 0, binding = 8, scalar) readonly buffer SlotBands { uint slot_bands[]; };
-layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 // Counting from the eye, a cap counts only where the eye sees through it: it is then not in the depth buffer. That is so for triangles
 // that are not drawn, and before the near plane.
@@ -47,7 +40,7 @@ void main()
     vec3 p[3] = vec3[](vec3(0.0), vec3(0.0), vec3(0.0));
     int side = 1;
     if (drawn) {
-        for (uint k = 0; k < 3; ++k) p[k] = placed(i, positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]]);
+        p = corners_of(i, triangle);
         side = sides[i.first_primitive + triangle];
         drawn = side != 0 && (c.count == VOLUME_ZFAIL || c.count == VOLUME_ZP_PLUS || seen_through(block, p));
     }

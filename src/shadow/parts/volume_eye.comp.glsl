@@ -2,19 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "src/shadow/parts/volume_sides.glsl"
+#include "src/shadow/parts/volume_triangles.glsl"
 #include "src/shadow/parts/volume_weights.glsl"
 
-layout(local_size_x = VOLUME_GROUP) in;
-
-layout(set = 0, binding = 0, scalar) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Indices { uint indices[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Blocks { VolumeBlock blocks[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Sides { int sides[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Weights { ivec4 weights[]; };
 layout(set = 0, binding = 6, scalar) buffer Eye { int eye[4]; };
-layout(set = 1, binding = 0, scalar) uniform Constants { VolumeTask c; };
 
 bool before(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
@@ -46,8 +39,7 @@ void main()
     if (inside) {
         const Instance i = instances[block.slot];
         const uint triangle = block.first + gl_LocalInvocationIndex;
-        vec3 p[3];
-        for (uint k = 0; k < 3; ++k) p[k] = placed(i, positions[i.first_vertex + indices[i.first_index + 3 * triangle + k]]);
+        const vec3 p[3] = corners_of(i, triangle);
         const int side = sides[i.first_primitive + triangle];
         const bool left = side > 0;
         inside = side != 0 && dot(cross(p[1] - p[0], p[2] - p[0]), eye_from(p[0])) * float(side) < 0.0 && left_of(p[0], p[1]) == left
