@@ -56,7 +56,7 @@ struct Compare {
     Common common;
     Picture picture;
     std::vector<std::string> techniques;
-    std::string output, reference;
+    std::string output, reference, motion;
     int truth_samples = 256, repeats = 3;
 };
 int compare(const Compare&);

@@ -217,6 +217,10 @@ int run(int argc, char** argv)
         ->required();
     compare_app->add_option("--reference", compare.reference,
         "A technique, with parameters after colons, that filtering is measured against: adds filter_mae and the like");
+    compare_app->add_option("--motion", compare.motion,
+        "Also measure how the error changes along a short sequence: camera,right=0.05 (metres a frame; up, forward; turn, tilt in "
+        "degrees), "
+        "light,azimuth=1, time,step=0.0333 or still; frames=8. Adds flicker, swimming and popping");
     compare_app->add_option("-o,--output", compare.output, "Folder for the page, pictures and results (default: out/compare-SCENE)");
     compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")
         ->check(CLI::Range(1, 1 << 20))

@@ -53,6 +53,7 @@ public:
         , stage_(stage)
         , choice_(choice)
         , settings_(settings)
+        , camera_(stage.camera)
     {
         for (const scene::Light& light : stage.lights) {
             const std::string reason = refusal(*choice.info, device, light);
@@ -65,9 +66,12 @@ public:
         if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
     }
 
+    void look_from(const scene::Camera& camera) { camera_ = camera; }
+    scene::View view(vec2 jitter = vec2(0)) const { return scene::make_view(camera_, stage_.view.size, stage_.bounds, jitter); }
+
     gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs, std::vector<Counter>* counters = nullptr)
     {
-        const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
+        const scene::View view = this->view(jitter);
         gpu::PassList passes(device_);
         const GBuffer g = draw_gbuffer(
             passes, scene_, view, {.material = settings_.lit || aovs, .previous = aovs && aovs->wants("motion") ? &view : nullptr});
@@ -110,13 +114,22 @@ public:
         return out;
     }
 
+    /// What the last frame left.
+    void read(AovCopies& aovs, Rendered& out)
+    {
+        for (gpu::Image& image : targets_.images) out.images.push_back(device_.read_back(image));
+        out.primitive = words(device_.read_back_bytes(targets_.primitive));
+        out.aovs = aovs.read(device_, view());
+        if (settings_.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
+    }
+
     uint64_t kept_bytes() const
     {
         uint64_t bytes = 0;
         for (const auto& technique : techniques_) bytes += technique->kept_bytes();
         return bytes;
     }
-    Targets& targets() { return targets_; }
+    gpu::Image& radiance() { return targets_.radiance; }
 
 private:
     void copy_counters(gpu::PassList& passes, const std::vector<Counter>& counters)
@@ -132,6 +145,7 @@ private:
     const Stage& stage_;
     const Choice& choice_;
     const RenderSettings& settings_;
+    scene::Camera camera_;
     std::vector<std::unique_ptr<Technique>> techniques_;
     Targets targets_;
     gpu::Buffer counted_;
@@ -228,16 +242,28 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
 
     if (settings.count && choice.info->counts) out.counts = renderer.count(settings.frame_index);
 
-    Targets& targets = renderer.targets();
-    for (gpu::Image& image : targets.images) out.images.push_back(device.read_back(image));
-    out.primitive = words(device.read_back_bytes(targets.primitive));
-    out.aovs = aovs.read(device, stage);
-    if (settings.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
+    renderer.read(aovs, out);
     for (int s = 0; settings.lit && s < settings.samples; ++s) {
         if (settings.samples > 1)
             renderer.draw(
                 vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, settings.frame_index * uint32_t(settings.samples) + uint32_t(s), nullptr);
-        add_rgb(out.radiance, device.read_back(targets.radiance), 1.0f / float(settings.samples));
+        add_rgb(out.radiance, device.read_back(renderer.radiance()), 1.0f / float(settings.samples));
+    }
+    return out;
+}
+
+std::vector<Rendered> render_sequence(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice,
+    std::span<const scene::Camera> cameras, RenderSettings settings)
+{
+    settings.lit = false;
+    std::vector<Rendered> out(cameras.size());
+    Renderer renderer(device, scene, stage, choice, settings);
+    AovCopies aovs(device, stage.view.size, settings.aovs);
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        renderer.look_from(cameras[i]);
+        for (int w = 0; i == 0 && w < settings.warm_up; ++w) renderer.draw(vec2(0), settings.frame_index, nullptr);
+        renderer.draw(vec2(0), settings.frame_index + uint32_t(i), &aovs);
+        renderer.read(aovs, out[i]);
     }
     return out;
 }

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,11 @@ struct Rendered {
 /// Draws a stage with one technique for all its lights. `scene` is the stage's scene on the device. Throws base::Error with the
 /// technique's reason where it refuses the device or a light.
 Rendered render(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, const RenderSettings&);
+
+/// One technique object through frames that differ in nothing but the camera: images, primitives and aovs of each, neither lit nor timed.
+/// Frame numbers count up from `settings.frame_index`; `settings.warm_up` frames of the first camera go before.
+std::vector<Rendered> render_sequence(
+    gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, std::span<const scene::Camera>, RenderSettings settings);
 
 /// Shades with given images (visibility or transmittance, one a light) instead of a technique's: the lit picture of the truth.
 base::Picture shade_with(
