@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/advise_rule.h"
 #include "lab/compare.h"
 #include "lab/features.h"
 
@@ -46,8 +47,8 @@ struct AdviseOptions {
 
 struct Measured {
     Choice choice;
-    double error = 0, ms = 0, excess = 0; ///< excess: by which part it is over the budget
-    uint64_t bytes = 0;
+    Reading reading;
+    double excess = 0; ///< by which part it is over the budget
 };
 
 struct Advice {
@@ -55,7 +56,7 @@ struct Advice {
     std::vector<std::string> budget;
     base::Size size;
     Features features;
-    double reference_ms = 0;
+    double reference_ms = 0; ///< the least of its frames; 0 where the budget does not refer to it
     size_t candidates = 0, finished = 0; ///< settings that began, and those that were measured at full size
     std::vector<Measured> front; ///< errors against times of the finished, fastest first
     std::optional<Measured> chosen; ///< none where nothing keeps the budget

@@ -14,11 +14,12 @@ using Json = nlohmann::ordered_json;
 
 Json measured_json(const Measured& m, const std::string& metric)
 {
-    return {{"technique", m.choice.info->id}, {"choice", choice_text(m.choice)}, {"params", m.choice.params.json()}, {metric, m.error},
-        {"ms", m.ms}, {"bytes", m.bytes}, {"within_budget", m.excess == 0}};
+    return {{"technique", m.choice.info->id}, {"choice", choice_text(m.choice)}, {"params", m.choice.params.json()},
+        {metric, m.reading.error}, {"ms", m.reading.ms}, {"mean_ms", m.reading.mean_ms}, {"deviation_ms", m.reading.deviation_ms},
+        {"bytes", m.reading.bytes}, {"within_budget", m.excess == 0}};
 }
 
-double mib(const Measured& m) { return double(m.bytes) / 1048576.0; }
+double mib(const Measured& m) { return double(m.reading.bytes) / 1048576.0; }
 
 } // namespace
 
@@ -46,12 +47,12 @@ std::string advice_text(const Advice& a)
     for (const std::string& reason : a.reasons) out += fmt::format("- {}\n", reason);
     out += fmt::format("  {:>10} {:>9} {:>9}  {}\n", a.metric, "ms", "MiB", "errors against times, the front");
     for (const Measured& m : a.front)
-        out += fmt::format(
-            "  {:10.5f} {:9.3f} {:9.2f}  {}{}\n", m.error, m.ms, mib(m), choice_text(m.choice), m.excess > 0 ? "  (over the budget)" : "");
+        out += fmt::format("  {:10.5f} {:9.3f} {:9.2f}  {}{}\n", m.reading.error, m.reading.ms, mib(m), choice_text(m.choice),
+            m.excess > 0 ? "  (over the budget)" : "");
     if (a.chosen) out += fmt::format("take {}\n", choice_text(a.chosen->choice));
     if (a.best && a.chosen)
         out += fmt::format("of all {} at full size, {} errs least within the budget: {} {:.5f}; the choice loses {:.1f} %\n", a.candidates,
-            choice_text(a.best->choice), a.metric, a.best->error, 100.0 * a.regret);
+            choice_text(a.best->choice), a.metric, a.best->reading.error, 100.0 * a.regret);
     return out;
 }
 
@@ -70,13 +71,13 @@ std::string advice_page(const std::vector<Advice>& all)
     for (const Advice& a : all) {
         out += fmt::format("| {} | {} | {}, {} | ", a.scene, a.light, a.candidates, a.finished);
         if (a.chosen)
-            out += fmt::format(
-                "`{}` | {:.5f} | {:.2f} | {:.1f} |", choice_text(a.chosen->choice), a.chosen->error, a.chosen->ms, mib(*a.chosen));
+            out += fmt::format("`{}` | {:.5f} | {:.2f} | {:.1f} |", choice_text(a.chosen->choice), a.chosen->reading.error,
+                a.chosen->reading.ms, mib(*a.chosen));
         else
             out += fmt::format("{} | | | |", a.nothing);
         if (a.best && a.chosen) {
-            out += fmt::format(
-                " `{}` | {:.5f} | {:.2f} | {:.1f} % |", choice_text(a.best->choice), a.best->error, a.best->ms, 100.0 * a.regret);
+            out += fmt::format(" `{}` | {:.5f} | {:.2f} | {:.1f} % |", choice_text(a.best->choice), a.best->reading.error,
+                a.best->reading.ms, 100.0 * a.regret);
             worst = std::max(worst, a.regret);
         } else if (exhaustive)
             out += " | | | |";
