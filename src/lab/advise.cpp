@@ -96,7 +96,7 @@ private:
     {
         size_t count = options_.exhaustive ? candidates_.size() : 0;
         for (size_t left = candidates_.size(), round = 0; round < Rule::rounds;
-             ++round, left = std::max(HalvingOptions().least, (left + 1) / 2))
+             ++round, left = std::max(HalvingOptions().least, (left + 2) / 3))
             count += left;
         return count;
     }

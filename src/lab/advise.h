@@ -30,7 +30,7 @@ std::vector<Candidate> find_candidates(const gpu::Device&, const Stage&, const F
 /// The settings of one technique, those with small maps first.
 std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer);
 
-/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, and else the same.
+/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, or with several maps for one, and else the same.
 bool costs_more(const Choice& a, const Choice& b);
 
 struct AdviseOptions {

@@ -48,6 +48,14 @@ bool is_amount(const ParamInfo& info)
         && std::any_of(std::begin(amounts), std::end(amounts), [&](const Amount& a) { return info.name == a.name; });
 }
 
+/// Several maps of map_size in place of one.
+bool has_layers(const Choice& choice)
+{
+    const ParamInfo* fit = choice.params.table().find("fit");
+    const std::string name = fit ? choice.params.text(*fit) : "";
+    return name == "cascades" || name == "sdsm";
+}
+
 void add_amounts(const Choice& base, std::vector<Choice>& out)
 {
     for (const Amount& amount : amounts) {
@@ -144,7 +152,8 @@ bool costs_more(const Choice& a, const Choice& b)
     for (const ParamInfo& p : a.params.table().fields) {
         const double from = b.params.get(p), to = a.params.get(p);
         if (from == to) continue;
-        if (!is_amount(p) || to < from) return false;
+        const bool layers = p.name == "fit" && has_layers(a) && !has_layers(b);
+        if (!layers && (!is_amount(p) || to < from)) return false;
         more = true;
     }
     return more;

@@ -25,10 +25,11 @@ Rule::Rule(size_t candidates, Budget budget, Gauges gauges, int frames)
 {
 }
 
+/// More frames than others have, since all are held against it.
 void Rule::time_reference()
 {
     if (!std::isfinite(budget_.times)) return;
-    const double ms = gauges_.time_reference([this](int frames, double) { return frames < std::max(frames_, 3); });
+    const double ms = gauges_.time_reference([this](int frames, double) { return frames < 4 * frames_; });
     reference_ms_ = reference_ms_ > 0 ? std::min(reference_ms_, ms) : ms;
 }
 

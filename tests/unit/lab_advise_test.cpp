@@ -104,7 +104,11 @@ TEST(Candidates, CostMoreWithMoreOfTheSame)
     EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf")));
     EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf:map_size=2048")));
     EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:taps=8"), parse_choice("pcf")));
-    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:fit=sdsm"), parse_choice("pcf")));
+    EXPECT_TRUE(costs_more(parse_choice("pcf:map_size=2048:fit=sdsm"), parse_choice("pcf")));
+    EXPECT_TRUE(costs_more(parse_choice("pcf:fit=cascades"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=512:fit=cascades"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:fit=sdsm"), parse_choice("pcf:fit=cascades")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:fit=focused"), parse_choice("pcf")));
     EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048"), parse_choice("shadow_map")));
 }
 
@@ -133,8 +137,8 @@ TEST(Halving, MeasuresFewDearlyAndKeepsTheBest)
     };
     const std::vector<size_t> last = halve({.candidates = count, .measure = measure});
     EXPECT_NE(std::find(last.begin(), last.end(), 37u), last.end());
-    EXPECT_EQ(made, (std::vector<size_t>{64, 32, 16}));
-    EXPECT_EQ(last.size(), 16u);
+    EXPECT_EQ(made, (std::vector<size_t>{64, 22, 8}));
+    EXPECT_EQ(last.size(), 8u);
     EXPECT_TRUE(std::is_sorted(last.begin(), last.end()));
 }
 
