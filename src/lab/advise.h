@@ -27,8 +27,8 @@ struct Candidate {
 /// From the registry by what techniques say of themselves, in settings that follow from the names of their parameters; those that were left
 /// out come once each, with the reason. Nothing here names a technique.
 std::vector<Candidate> find_candidates(const gpu::Device&, const Stage&, const Features&, Prefer);
-/// The settings of one technique, those with small maps first.
-std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer);
+/// The settings of one technique, those with small maps first; `see_through`: those as well that let light through semitransparent casters.
+std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer, bool see_through = false);
 
 /// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, or with several maps for one, and else the same.
 bool costs_more(const Choice& a, const Choice& b);

@@ -76,6 +76,17 @@ void add_amounts(const Choice& base, std::vector<Choice>& out)
         add(out, with(with(base, *taps, 2 * base.params.get(*taps)), *search, 2 * base.params.get(*search)));
 }
 
+/// With what makes the technique let light through semitransparent casters: a parameter that turns its output into transmittance.
+void add_transmittance(const Choice& base, std::vector<Choice>& out)
+{
+    if (!base.info->output_of || output_of(base) == shadow::Output::transmittance) return;
+    for (const ParamInfo& p : base.params.table().fields) {
+        const size_t values = p.type == ParamType::choice ? p.choices.size() : p.type == ParamType::flag ? 2 : 0;
+        for (size_t i = 0; i < values; ++i)
+            if (Choice other = with(base, p, double(i)); output_of(other) == shadow::Output::transmittance) add(out, std::move(other));
+    }
+}
+
 /// Maps that follow the view, where light and technique take them; those whose shadows' edges swim are not stable.
 std::vector<Choice> fitted(const Choice& base, const scene::Light& light, Prefer prefer)
 {
@@ -126,12 +137,13 @@ Prefer parse_prefer(const std::string& text)
     return Prefer(found - names.begin());
 }
 
-std::vector<Choice> settings(const shadow::TechniqueInfo& info, const scene::Light& light, Prefer prefer)
+std::vector<Choice> settings(const shadow::TechniqueInfo& info, const scene::Light& light, Prefer prefer, bool see_through)
 {
     std::vector<Choice> out;
     const std::vector<Choice> bases = fitted(default_choice(info), light, prefer);
     for (const Choice& base : bases) add(out, base);
     if (!bases.empty()) add_amounts(bases.front(), out);
+    if (!bases.empty() && see_through) add_transmittance(bases.front(), out);
     // several layers again with half as wide ones: four of them have the texels of one
     for (size_t i = 1; i < bases.size(); ++i)
         if (const ParamInfo* size = bases[i].params.table().find("map_size"); size && is_amount(*size))
@@ -167,7 +179,8 @@ std::vector<Candidate> find_candidates(const gpu::Device& device, const Stage& s
             out.push_back({default_choice(*info), why});
             continue;
         }
-        for (Choice& choice : settings(*info, stage.lights.front(), prefer)) out.push_back({std::move(choice), ""});
+        for (Choice& choice : settings(*info, stage.lights.front(), prefer, features.see_through > 0))
+            out.push_back({std::move(choice), ""});
     }
     return out;
 }

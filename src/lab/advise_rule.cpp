@@ -37,15 +37,12 @@ double Rule::limit_ms() const { return std::min(budget_.ms, std::isfinite(budget
 
 double Rule::excess(const Reading& r) const { return missed_by(r.ms, limit_ms()) + missed_by(double(r.bytes), budget_.bytes); }
 
-/// Small pictures need no exact times; at full size those get more frames that are a little over the budget, since only load may be why.
+/// Small pictures need no exact times, nor does what is far over the budget.
 Again Rule::patience(int round) const
 {
-    const double limit = limit_ms();
-    if (round + 1 < rounds) return [=](int frames, double least) { return frames < 2 && least > limit && least <= (1 + hopeless) * limit; };
-    return [=, most = 4 * frames_, some = frames_](int frames, double least) {
-        if (frames < some) return least <= (1 + hopeless) * limit;
-        return frames < most && least > limit && least <= (1 + near) * limit;
-    };
+    const double limit = limit_ms(), most = (1 + hopeless) * limit;
+    if (round + 1 < rounds) return [=](int frames, double least) { return frames < 2 && least > limit && least <= most; };
+    return [=, some = frames_](int frames, double least) { return frames < some && least <= most; };
 }
 
 /// With less of something it is far over the budget already, in a picture that is no larger.
@@ -96,11 +93,12 @@ std::vector<size_t> Rule::measured() const
 /// them late may have been another program.
 void Rule::settle(std::vector<size_t> among)
 {
+    const Again until_within = [this](int frames, double least) { return frames < 4 * frames_ && least > limit_ms(); };
     std::sort(among.begin(), among.end(), [this](size_t a, size_t b) { return better(a, b); });
     for (const size_t i : among) {
         Reading& r = full_.at(i);
         for (int pass = 0; pass < 3 && excess(r) > 0 && missed_by(r.ms, limit_ms()) <= near && double(r.bytes) <= budget_.bytes; ++pass) {
-            r.ms = std::min(r.ms, gauges_.time(i, patience(rounds - 1)));
+            r.ms = std::min(r.ms, gauges_.time(i, until_within));
             time_reference();
         }
         if (excess(r) == 0) return;
