@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gnomon::lab {
 
@@ -45,8 +46,7 @@ public:
         if (options_.exhaustive) rule.measure_all();
         rule.run();
         if (rule.finalists().empty())
-            base::fail("no technique could be measured: {}", out_.left_out.empty() ? "there is none" : out_.left_out.front());
-        out_.reference_ms = rule.reference_ms();
+            base::fail("no technique could be measured: {}", out_.left_out.empty() ? "all take far too long" : out_.left_out.back().why);
         choose(rule);
         if (options_.exhaustive) compare_with_best(rule);
         return std::move(out_);
@@ -70,25 +70,28 @@ private:
             meter_->add(smaller);
         }
         out_.scene = stage.scene_name, out_.camera = stage.camera.name, out_.light = meter_->light_name(full);
-        out_.size = options_.stage.size, out_.metric = options_.metric, out_.budget = options_.budget;
+        out_.size = options_.stage.size, out_.metric = options_.metric, out_.reference = options_.reference, out_.budget = options_.budget;
         out_.device = device_.info().name, out_.driver = device_.info().driver, out_.commit = commit();
     }
 
     void collect()
     {
-        const Stage& stage = meter_->stage(full);
-        for (Candidate& c : find_candidates(device_, stage, out_.features, options_.prefer)) {
-            const auto& without = options_.without;
-            if (c.left_out.empty() && std::find(without.begin(), without.end(), c.choice.info->id) != without.end()) continue;
-            if (c.left_out.empty())
-                candidates_.push_back(std::move(c.choice));
-            else
-                out_.left_out.push_back(fmt::format("{}: {}", c.choice.info->id, c.left_out));
+        const auto& without = options_.without;
+        std::set<const shadow::TechniqueInfo*> techniques;
+        for (Candidate& c : find_candidates(device_, meter_->stage(full), out_.features, options_.prefer)) {
+            if (std::find(without.begin(), without.end(), c.choice.info->id) != without.end()) continue;
+            if (!c.left_out.empty()) {
+                out_.left_out.push_back({std::string(c.choice.info->id), c.left_out});
+                continue;
+            }
+            techniques.insert(c.choice.info);
+            candidates_.push_back(std::move(c.choice));
         }
-        out_.candidates = candidates_.size();
+        out_.candidates = candidates_.size(), out_.techniques = techniques.size();
         if (candidates_.empty())
-            base::fail("no technique fits this light and preference{}",
-                out_.left_out.empty() ? "" : "; the first that was left out is " + out_.left_out.front());
+            base::fail("no technique fits this light, --prefer and --without; {}",
+                out_.left_out.empty() ? "--without names them all"
+                                      : fmt::format("{} is left out because {}", out_.left_out.front().what, out_.left_out.front().why));
     }
 
     /// Settled ones apart.
@@ -123,7 +126,7 @@ private:
         } catch (const base::Error& e) {
             // as where a map is too large for the device; a metric that is not there is missing everywhere
             if (!measured_one_) throw;
-            out_.left_out.push_back(fmt::format("{}: {}", choice_text(candidates_[candidate]), e.what()));
+            out_.left_out.push_back({choice_text(candidates_[candidate]), e.what()});
             return {};
         }
     }
@@ -132,55 +135,18 @@ private:
 
     void choose(const Rule& rule)
     {
-        const std::vector<size_t>& last = rule.finalists();
-        out_.finished = last.size();
         std::vector<Trial> trials;
-        for (const size_t i : last) trials.push_back({rule.reading(i).error, rule.reading(i).ms, rule.excess(rule.reading(i))});
-        for (const size_t i : pareto_front(trials)) out_.front.push_back(measured(rule, last[i]));
-        out_.reasons = feature_sentences(out_.features);
-        out_.reasons.push_back(
-            fmt::format("{} settings of techniques that fit were measured, {} of them at the full {}x{}; {} were left out", out_.candidates,
-                out_.finished, out_.size.width, out_.size.height, out_.left_out.size()));
-        if (const std::optional<size_t> best = rule.chosen()) {
-            out_.chosen = measured(rule, *best);
-            explain(rule);
-            return;
-        }
-        const Measured m = measured(rule, *std::min_element(last.begin(), last.end(), [&](size_t a, size_t b) {
-            return rule.excess(rule.reading(a)) < rule.excess(rule.reading(b));
-        }));
-        out_.nothing
-            = fmt::format("nothing that fits keeps the budget of {}{}: nearest comes {} with {:.4g} ms, {} and {} {:.4g}; allow that, or "
-                          "take a smaller picture",
-                fmt::join(out_.budget, " and "),
-                out_.reference_ms > 0 ? fmt::format(" ({} takes {:.4g} ms)", options_.reference, out_.reference_ms) : "",
-                choice_text(m.choice), m.reading.ms, quantity_text("bytes", double(m.reading.bytes)), out_.metric, m.reading.error);
-    }
-
-    void explain(const Rule& rule)
-    {
-        const Measured& best = *out_.chosen;
-        const shadow::TechniqueInfo& info = *best.choice.info;
-        const std::string within = out_.budget.empty() ? "" : fmt::format(" of those within {}", fmt::join(out_.budget, " and "));
-        out_.reasons.push_back(fmt::format(
-            "{} errs least{}: {} {:.4g} in {:.4g} ms", choice_text(best.choice), within, out_.metric, best.reading.error, best.reading.ms));
-        if (info.exact) out_.reasons.push_back(fmt::format("{} is exact up to a band at true edges", info.id));
-        if (out_.features.soft && !info.soft)
-            out_.reasons.push_back(fmt::format("it takes the light as a point, and yet nothing soft that {} errs less",
-                out_.budget.empty() ? "was measured" : "keeps the budget"));
-        std::optional<Measured> other, over;
         for (const size_t i : rule.finalists()) {
-            Measured m = measured(rule, i);
-            const auto errs_less = [](const Measured& a, const Measured& b) { return a.reading.error < b.reading.error; };
-            if (m.choice.info != best.choice.info && m.excess == 0 && (!other || errs_less(m, *other))) other = m;
-            if (m.excess > 0 && errs_less(m, best) && (!over || m.excess < over->excess)) over = m;
+            out_.measured.push_back(measured(rule, i));
+            trials.push_back({rule.reading(i).error, rule.reading(i).ms, out_.measured.back().excess});
         }
-        if (other)
-            out_.reasons.push_back(fmt::format("the next technique is {}: {} {:.4g} in {:.4g} ms", choice_text(other->choice), out_.metric,
-                other->reading.error, other->reading.ms));
-        if (over)
-            out_.reasons.push_back(fmt::format("with more to spend there is {}: {} {:.4g} in {:.4g} ms and {}", choice_text(over->choice),
-                out_.metric, over->reading.error, over->reading.ms, quantity_text("bytes", double(over->reading.bytes))));
+        for (const size_t i : pareto_front(trials)) out_.front.push_back(out_.measured[i]);
+        out_.reference_ms = rule.reference_ms();
+        if (const std::optional<size_t> best = rule.chosen())
+            out_.chosen = measured(rule, *best);
+        else
+            out_.nothing = nothing_keeps(out_);
+        out_.reasons = advice_reasons(out_);
     }
 
     void compare_with_best(const Rule& rule)

@@ -51,23 +51,35 @@ struct Measured {
     double excess = 0; ///< by which part it is over the budget
 };
 
+/// A technique, or one of its settings, that could not be advised.
+struct LeftOut {
+    std::string what, why;
+};
+
 struct Advice {
-    std::string scene, camera, light, device, driver, commit, metric;
+    std::string scene, camera, light, device, driver, commit, metric, reference;
     std::vector<std::string> budget;
     base::Size size;
     Features features;
     double reference_ms = 0; ///< the least of its frames; 0 where the budget does not refer to it
-    size_t candidates = 0, finished = 0; ///< settings that began, and those that were measured at full size
-    std::vector<Measured> front; ///< errors against times of the finished, fastest first
+    size_t candidates = 0, techniques = 0; ///< settings that began, and of how many techniques
+    std::vector<Measured> measured; ///< at full size
+    std::vector<Measured> front; ///< errors against times of those, fastest first
     std::optional<Measured> chosen; ///< none where nothing keeps the budget
     std::string nothing; ///< then: a sentence that names the nearest
-    std::vector<std::string> reasons, left_out; ///< sentences
+    std::vector<std::string> reasons; ///< sentences
+    std::vector<LeftOut> left_out;
     std::optional<Measured> best; ///< of all candidates at full size; only where exhaustive
     double regret = 0; ///< by which part the choice's error is above the best one's
 };
 
 /// Throws base::Error on names that do not exist and where no technique can run.
 Advice advise(gpu::Device&, const AdviseOptions&);
+
+/// Why, in sentences, from all else that an advice holds.
+std::vector<std::string> advice_reasons(const Advice&);
+/// The sentence for a budget that nothing keeps; something was measured.
+std::string nothing_keeps(const Advice&);
 
 nlohmann::ordered_json advice_json(const Advice&);
 std::string advice_text(const Advice&); ///< for a terminal
