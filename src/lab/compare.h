@@ -46,6 +46,7 @@ struct Run {
     std::string params; ///< JSON text
     std::vector<PassStats> passes;
     double technique_ms = 0, technique_deviation = 0;
+    double technique_least_ms = 0; ///< of the timed frames
     uint64_t bytes = 0;
     std::map<std::string, uint64_t> counts; ///< of its work, by name; empty where it counts none
     std::map<std::string, double> metrics;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace gnomon::lab {
 
@@ -153,16 +154,25 @@ private:
 
 struct Sums {
     double sum = 0, squares = 0;
+    double least = std::numeric_limits<double>::infinity();
     int count = 0;
-    void add(double v) { sum += v, squares += v * v, ++count; }
+    void add(double v) { sum += v, squares += v * v, least = std::min(least, v), ++count; }
     double mean() const { return count ? sum / count : 0; }
     double deviation() const { return count > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1))) : 0; }
 };
 
+double own_ms(const std::vector<gpu::PassTime>& frame, std::string_view id)
+{
+    const std::string own = std::string(id) + "/";
+    double ms = 0;
+    for (const gpu::PassTime& t : frame)
+        if (t.name.starts_with(own)) ms += t.ms;
+    return ms;
+}
+
 /// Passes of one name in one frame (several lights or layers) are added up.
 void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs, std::string_view id)
 {
-    const std::string own = std::string(id) + "/";
     std::vector<std::string> names;
     std::map<std::string, Sums> sums;
     std::map<std::string, int> counts;
@@ -170,19 +180,18 @@ void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs,
     for (const auto& run : runs) {
         std::map<std::string, double> frame;
         counts.clear();
-        double total = 0;
         for (const gpu::PassTime& t : run) {
             if (std::find(names.begin(), names.end(), t.name) == names.end()) names.push_back(t.name);
             frame[t.name] += t.ms;
             ++counts[t.name];
-            if (t.name.starts_with(own)) total += t.ms;
         }
         for (const auto& [name, ms] : frame) sums[name].add(ms);
-        technique.add(total);
+        technique.add(own_ms(run, id));
     }
     for (const std::string& name : names)
         if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation(), counts[name]});
     out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
+    out.technique_least_ms = technique.least;
 }
 
 void add_rgb(base::Picture& sum, const base::Picture& rgba, float weight)
@@ -231,11 +240,15 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
     const gpu::Submitted first = renderer.draw(vec2(0), settings.frame_index, &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
-    const int warm_up = std::max(settings.warm_up, settings.repeats > 1 ? 1 : 0);
+    const int warm_up = std::max(settings.warm_up, settings.repeats > 1 || settings.again ? 1 : 0);
     if (warm_up == 0) runs.push_back(first.times);
     for (int i = 1; i < warm_up; ++i) renderer.draw(vec2(0), settings.frame_index, nullptr);
-    if (warm_up > 0)
-        for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
+    double least = std::numeric_limits<double>::infinity();
+    const auto again = [&](int frames) { return settings.again && frames > 0 ? settings.again(frames, least) : frames < settings.repeats; };
+    for (int i = 0; warm_up > 0 && again(i); ++i) {
+        runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
+        least = std::min(least, own_ms(runs.back(), choice.info->id));
+    }
     collect(out, runs, choice.info->id);
     const auto own = first.group_bytes.find(std::string(choice.info->id));
     out.technique_bytes = (own == first.group_bytes.end() ? 0 : own->second) + renderer.kept_bytes();

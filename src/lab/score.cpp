@@ -84,6 +84,7 @@ void add_times(Run& run, const Rendered& rendered)
 {
     run.passes = rendered.passes, run.bytes = rendered.technique_bytes, run.counts = rendered.counts;
     run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation;
+    run.technique_least_ms = rendered.technique_least_ms;
 }
 
 truth::Quantity truth_quantity(const Choice& choice)

@@ -81,48 +81,5 @@ TEST(Tune, RefusesInASentence)
     EXPECT_NE(said({"sweep", "e.json", "--plan"}, 1).find("for tuning"), std::string::npos);
 }
 
-TEST(Advise, ChoosesWithinTheBudgetAndSaysWhy)
-{
-    const Scratch scratch;
-    const std::vector<std::string> few = {"--light", "sun,elevation=50,angle=0", "--size", "40x24", "--repeats", "2", "--without",
-        "csm,evsm,lvsm,msm,esm,vsm,power_cdf,cssm,vssm,moment_soft,back_projection,occlusion_textures,light_sampling,pcss,blurred_depth"};
-    const auto advise = [&](std::vector<std::string> more) {
-        std::vector<std::string> words = {"advise", "plane"};
-        words.insert(words.end(), few.begin(), few.end());
-        words.insert(words.end(), more.begin(), more.end());
-        return run_gnomon(words, scratch.folder());
-    };
-    const Finished found = advise({"--budget", "512MiB", "--exhaustive", "--json", "-o", "table.md"});
-    ASSERT_EQ(found.code, 0) << found.err;
-    const Json json = Json::parse(found.out);
-    EXPECT_TRUE(json.at("choice").at("within_budget"));
-    EXPECT_FALSE(json.at("reasons").empty());
-    EXPECT_FALSE(json.at("front").empty());
-    EXPECT_LE(json.at("regret"), 0.1);
-    EXPECT_NE(read_whole(scratch / "table.md").find("Largest regret"), std::string::npos);
-
-    const Finished nothing = advise({"--budget", "0.001us"});
-    EXPECT_EQ(nothing.code, 1);
-    EXPECT_NE(nothing.err.find("keeps the budget of 0.001us"), std::string::npos) << nothing.err;
-}
-
-TEST(Advise, RefusesInASentence)
-{
-    const Scratch scratch;
-    const auto said = [&](std::vector<std::string> words) {
-        words.insert(words.begin(), "advise");
-        const Finished f = run_gnomon(words, scratch.folder());
-        EXPECT_EQ(f.code, 1) << f.out;
-        return f.err;
-    };
-    EXPECT_NE(said({"nowhere"}).find("unknown scene 'nowhere'"), std::string::npos);
-    EXPECT_NE(said({"plane", "--budget", "4"}).find("lacks a unit"), std::string::npos);
-    EXPECT_NE(said({"plane", "--metric", "maw"}).find("mae"), std::string::npos);
-    EXPECT_NE(said({"plane", "--metric", "time"}).find("time is no error"), std::string::npos);
-    EXPECT_NE(said({"plane", "--prefer", "sharp"}).find("unknown preference"), std::string::npos);
-    EXPECT_NE(said({"plane", "--without", "pfc"}).find("pcf"), std::string::npos);
-    EXPECT_NE(said({"plane", "-o", "table.txt"}).find("no .md file"), std::string::npos);
-}
-
 } // namespace
 } // namespace gnomon::tests
