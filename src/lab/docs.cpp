@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "scene/load.h"
+#include "lab/gallery.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,18 +28,6 @@ std::string parameter_table(const shadow::TechniqueInfo& info)
         out += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, values.text(p), allowed, p.unit, p.help);
     }
     return out;
-}
-
-/// techniques/<id>/results.json is what `gnomon picture` measured; without it there is nothing to say yet.
-Json measured(const fs::path& folder)
-{
-    const fs::path file = folder / "results.json";
-    if (!fs::exists(file)) return {};
-    try {
-        return Json::parse(base::read_text(file));
-    } catch (const nlohmann::json::exception& e) {
-        base::fail("{}: {}; make it again with `gnomon picture`", file.string(), e.what());
-    }
 }
 
 std::string cost_table(const Json& results)
@@ -96,33 +84,6 @@ std::string overview_table()
     return out;
 }
 
-/// The built-in scenes, four in a row.
-std::string scene_grid(const fs::path& root)
-{
-    std::string row, names, out = "| | | | |\n| --- | --- | --- | --- |\n";
-    int column = 0;
-    for (const scene::Builtin& builtin : scene::builtins()) {
-        const fs::path picture = fs::path("docs") / "pictures" / (std::string(builtin.name) + ".png");
-        if (!fs::exists(root / picture)) continue;
-        row += fmt::format("| ![{}]({}) ", builtin.name, picture.generic_string());
-        names += fmt::format("| `{}` ", builtin.name);
-        if (++column % 4 == 0) out += row + "|\n" + names + "|\n", row.clear(), names.clear();
-    }
-    return column == 0 ? "" : out + (row.empty() ? "" : row + "|\n" + names + "|\n") + "\n";
-}
-
-std::string gallery(const fs::path& root)
-{
-    std::string out = scene_grid(root);
-    for (const shadow::TechniqueInfo* info : shadow::techniques()) {
-        const fs::path picture = fs::path("techniques") / info->id / (std::string(info->id) + ".png");
-        if (fs::exists(root / picture))
-            out += fmt::format("**[{}](techniques/{}/README.md)** ({}), beside the ray-traced truth and its error\n\n![{}]({})\n\n",
-                info->title, info->id, info->cite, info->title, picture.generic_string());
-    }
-    return out;
-}
-
 } // namespace
 
 std::vector<fs::path> update_docs(const fs::path& root, bool check)
@@ -145,7 +106,9 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
             folder / "README.md", {{"parameters", parameter_table(*info)}, {"cost", cost_table(results)}, {"error", error_table(results)}});
     }
     update(root / "techniques" / "README.md", {{"techniques", overview_table()}});
-    update(root / "README.md", {{"gallery", gallery(root)}});
+    for (const fs::path& file : update_thumbnails(root, check)) changed.push_back(file);
+    update(root / "README.md", {{"pictures", picture_grid(root)}});
+    update(root / "docs" / "gallery.md", {{"gallery", gallery(root)}});
     return changed;
 }
 

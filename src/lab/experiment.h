@@ -38,6 +38,7 @@ struct PlotSpec {
         points; ///< where x is a number that was measured: runs that agree in these are one point, their mean; empty = each its own
     Where where;
     bool log_x = false, log_y = false;
+    double y_floor = 0; ///< above 0: smaller values are drawn at it, and the axis says so (0 has no place on a logarithmic axis)
 };
 
 /// One combination.

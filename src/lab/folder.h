@@ -74,15 +74,18 @@ std::vector<std::filesystem::path> new_technique(const std::filesystem::path& ro
 /// Writes goldens of one technique on this device; a change needs a reason. Returns what changed, with the promises' metrics.
 std::string bless(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder, const std::string& because);
 
-/// Makes techniques/<id>/<id>.png: the technique beside the truth.
+inline constexpr base::Size picture_panel{320, 240};
+inline constexpr int picture_gap = 4;
+/// Makes techniques/<id>/<id>.png: panels with gaps between them, the technique first, the truth, and the error with its legend below.
 std::filesystem::path make_picture(gpu::Device&, const shadow::TechniqueInfo&, const std::filesystem::path& folder);
 
 /// docs/pictures/<scene>.png of every built-in scene under its first light: ray_traced, or shadow_map where the device has no rays.
 std::vector<std::filesystem::path> make_scene_pictures(gpu::Device&, const std::filesystem::path& root);
 
 /// Rewrites the generated blocks (between `<!-- generated:NAME -->` and `<!-- /generated -->`) of the technique pages, of
-/// techniques/README.md and of the README's gallery; with `check`, writes nothing and returns the files that are stale. Parameter
-/// tables come from the code; cost and error from techniques/<id>/results.json (made by `gnomon picture`).
+/// techniques/README.md, of the README and of docs/gallery.md, and makes the thumbnails anew that are not of the present pictures; with
+/// `check`, writes nothing. Returns the files that were stale. Parameter tables come from the code; cost and error from
+/// techniques/<id>/results.json (made by `gnomon picture`).
 std::vector<std::filesystem::path> update_docs(const std::filesystem::path& root, bool check);
 
 } // namespace gnomon::lab

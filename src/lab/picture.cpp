@@ -20,20 +20,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr base::Size panel{320, 240};
-
-/// Panels beside one another, 4 pixels apart; all linear display-referred RGB.
+/// Panels beside one another; all linear display-referred RGB.
 base::Picture beside(const std::vector<base::Picture>& panels)
 {
-    int width = -4, height = 0;
-    for (const base::Picture& p : panels) width += p.size.width + 4, height = std::max(height, p.size.height);
+    int width = -picture_gap, height = 0;
+    for (const base::Picture& p : panels) width += p.size.width + picture_gap, height = std::max(height, p.size.height);
     base::Picture out({width, height}, 3, 1.0f);
     int left = 0;
     for (const base::Picture& p : panels) {
         for (int y = 0; y < p.size.height; ++y)
             for (int x = 0; x < p.size.width; ++x)
                 for (int c = 0; c < 3; ++c) out.at(left + x, y, c) = p.at(x, y, std::min(c, p.channels - 1));
-        left += p.size.width + 4;
+        left += p.size.width + picture_gap;
     }
     return out;
 }
@@ -55,7 +53,7 @@ fs::path make_picture(gpu::Device& device, const shadow::TechniqueInfo& info, co
     comparison.device = device.info().name, comparison.driver = device.info().driver, comparison.commit = commit();
     std::vector<base::Picture> panels;
     for (const std::string& kind : claimed_kinds(info)) {
-        const Stage stage = technique_stage(own, kind, panel);
+        const Stage stage = technique_stage(own, kind, picture_panel);
         shadow::SceneGpu scene(device, stage.scene);
         Run run = new_run(stage, choice, kind);
         const truth::Reference truth

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <report_html.h>
+#include <report_js.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace gnomon::lab {
@@ -45,27 +47,46 @@ std::vector<const Run*> front(std::vector<const Run*> runs)
     return out;
 }
 
-/// The SVG of one light, or why there is none.
-std::string draw_front(const Comparison& comparison, const std::string& light, size_t number, const fs::path& folder, std::string& refused)
+/// Below every error that can be told from 0, halfway between two powers of ten; what is smaller is drawn there.
+double error_floor(const std::vector<const Run*>& runs)
+{
+    double least = 1.0;
+    for (const Run* run : runs)
+        if (run->metrics.at("mae") >= 1e-7) least = std::min(least, run->metrics.at("mae"));
+    return std::pow(10.0, std::floor(std::log10(least)) - 0.5);
+}
+
+std::vector<const Run*> runs_under(const Comparison& comparison, const std::string& light)
 {
     std::vector<const Run*> runs;
     for (const Run& run : comparison.runs)
         if (run.light == light && run.skipped.empty()) runs.push_back(&run);
-    const std::vector<const Run*> best = front(runs);
-    // an exact technique has no place on a logarithmic axis
-    const auto point = [](const Run* run) {
-        return PlotPoint{"", run->technique_ms, std::max(run->metrics.at("mae"), 1e-6), 0, run->name};
-    };
-    PlotSeries line{"front", 0, 0, true, {}}, rest{"others", 6, 0, false, {}};
-    for (const Run* run : best) line.points.push_back(point(run));
-    for (const Run* run : runs)
-        if (std::find(best.begin(), best.end(), run) == best.end()) rest.points.push_back(point(run));
+    return runs;
+}
+
+/// The SVG of one light, or why there is none. A colour for each family, and a line through the front.
+std::string draw_front(const Comparison& comparison, const std::string& light, size_t number, const fs::path& folder, std::string& refused)
+{
+    const std::vector<const Run*> runs = runs_under(comparison, light);
+    constexpr size_t grey = 6;
+    std::vector<PlotSeries> series = {{"front", grey, 0, true, {}, false}};
+    for (const Run* run : front(runs)) series.front().points.push_back({"", run->technique_ms, run->metrics.at("mae"), 0});
+    for (const Run* run : runs) {
+        const std::string family(shadow::technique(run->technique).family);
+        auto at = std::find_if(series.begin(), series.end(), [&](const PlotSeries& s) { return s.name == family; });
+        if (at == series.end()) {
+            const size_t color = series.size() - 1 + (series.size() > grey);
+            at = series.insert(series.end(), {family, color, color, false, {}});
+        }
+        at->points.push_back({"", run->technique_ms, run->metrics.at("mae"), 0, run->name});
+    }
     PlotSpec spec;
     spec.file = fmt::format("front.{}", number + 1);
     spec.title = fmt::format("Mean absolute error over milliseconds, {}", light);
-    spec.x_label = "ms", spec.y_label = "mean absolute error, 1e-6 at least", spec.log_x = spec.log_y = true;
+    spec.x_label = "ms, the technique's own passes", spec.y_label = "mean absolute error of visibility", spec.log_x = spec.log_y = true;
+    spec.y_floor = error_floor(runs);
     const fs::path file = folder / (spec.file + ".svg");
-    refused = draw_series(spec, {line, rest}, file);
+    refused = draw_series(spec, series, file);
     return refused.empty() ? base::read_text(file) : "";
 }
 
@@ -79,7 +100,7 @@ std::string script_text(const Json& json)
 
 void add_metrics(Json& list, const std::vector<metrics::Metric>& all)
 {
-    for (const metrics::Metric& m : all) list.push_back({{"id", m.id}, {"help", fmt::format("{} ({})", m.help, m.unit)}});
+    for (const metrics::Metric& m : all) list.push_back({{"id", m.id}, {"unit", m.unit}, {"help", m.help}});
 }
 
 std::string csv_text(const std::string& text)
@@ -120,7 +141,8 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
     data["error_colors"] = metrics::heat_map_colors();
     data["metrics"] = Json::array();
     add_metrics(data["metrics"], metrics::metrics());
-    data["metrics"].push_back({{"id", "flip"}, {"help", "perceived difference of the lit pictures (Andersson et al. 2020)"}});
+    data["metrics"].push_back(
+        {{"id", "flip"}, {"unit", "0 to 1"}, {"help", "perceived difference of the lit pictures (Andersson et al. 2020)"}});
     add_metrics(data["metrics"], metrics::filter_metrics());
     add_metrics(data["metrics"], metrics::temporal_metrics());
     data["pictures"] = Json::object();
@@ -132,6 +154,8 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
         const Run& run = comparison.runs[i];
         data["runs"][i]["name"] = run.name, data["runs"][i]["pictures"] = run.pictures,
         data["runs"][i]["quantity"] = quantity(run.quantity);
+        const shadow::TechniqueInfo& info = shadow::technique(run.technique);
+        data["runs"][i]["title"] = info.title, data["runs"][i]["family"] = info.family, data["runs"][i]["cite"] = info.cite;
         add(run.pictures);
     }
     data["truths"] = Json::array();
@@ -145,6 +169,7 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
     }
     data["plots"] = Json::array();
     for (size_t i = 0; i < lights.size(); ++i) {
+        for (const Run* run : front(runs_under(comparison, lights[i]))) data["runs"][size_t(run - comparison.runs.data())]["front"] = true;
         std::string refused;
         const std::string svg = draw_front(comparison, lights[i], i, folder, refused);
         if (refused.empty())
@@ -158,8 +183,9 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
         }
     }
     std::string page(report_html);
-    constexpr std::string_view place = "@REPORT_DATA@";
-    page.replace(page.find(place), place.size(), script_text(data));
+    const auto put = [&](std::string_view place, std::string_view text) { page.replace(page.find(place), place.size(), text); };
+    put("@REPORT_SCRIPT@", report_js); // before the data, which may hold any text
+    put("@REPORT_DATA@", script_text(data));
     return page;
 }
 

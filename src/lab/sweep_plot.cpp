@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 #include "base/file.h"
-#include "lab/plot.h"
+#include "lab/plot_labels.h"
 #include "lab/sweep.h"
 
 #include <fmt/format.h>
@@ -76,17 +76,6 @@ std::vector<PlotSeries> collect(const PlotSpec& plot, const std::vector<Row>& ro
     return out;
 }
 
-/// Inside double quotes of gnuplot.
-std::string text(const std::string& in)
-{
-    std::string out = "\"";
-    for (const char c : in) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c == '\n' ? ' ' : c;
-    }
-    return out + "\"";
-}
-
 /// Colours that stay apart for the colour-blind (Okabe, Ito 2008).
 constexpr const char* colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444", "#8c6d1f"};
 
@@ -134,33 +123,36 @@ std::string script(const PlotSpec& plot, const std::vector<PlotSeries>& series, 
         = fmt::format("set terminal svg size 800,500 dynamic noenhanced background '#ffffff' font 'sans-serif,14'\nset output {}\n"
                       "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc '#cccccc'\nset key outside right top reverse Left\n"
                       "set errorbars 0.7\nset format y '%g'\nset tics nomirror\nset border 3\n",
-            text(plot.file + ".svg"), text(plot.title), text(plot.x_label), text(plot.y_label));
+            plot_text(plot.file + ".svg"), plot_text(plot.title), plot_text(plot.x_label), plot_text(plot.y_label));
     if (plot.log_y) out += "set logscale y\n";
     if (plot.log_x && !words) out += "set logscale x\n";
     const std::vector<std::string> labels = words ? labels_of(series) : std::vector<std::string>();
     const double width = 0.8 / double(series.size());
     if (words) {
         out += "set xtics rotate by -20 (";
-        for (size_t i = 0; i < labels.size(); ++i) out += fmt::format("{}{} {}", i ? ", " : "", text(labels[i]), i);
+        for (size_t i = 0; i < labels.size(); ++i) out += fmt::format("{}{} {}", i ? ", " : "", plot_text(labels[i]), i);
         out += fmt::format(")\nset xrange [-0.6:{}]\nset boxwidth {}\n", double(labels.size()) - 0.4, width);
         if (!plot.log_y) out += "set yrange [0:*]\n";
     } else
         out += number_axis(plot, series);
+    const bool noted = std::any_of(series.begin(), series.end(), [](const PlotSeries& s) {
+        return std::any_of(s.points.begin(), s.points.end(), [](const PlotPoint& p) { return !p.note.empty(); });
+    });
+    if (noted) out += label_script(plot, series);
+    if (plot.y_floor > 0) out += fmt::format("set encoding utf8\nset ytics add ('≈ 0' {})\n", plot.y_floor);
     for (size_t i = 0; i < series.size(); ++i) {
         out += fmt::format("$d{} << EOD\n", i);
         for (const PlotPoint& p : series[i].points) {
             const double group = double(std::find(labels.begin(), labels.end(), p.label) - labels.begin());
             out += fmt::format("{} {} {} {}\n", words ? group + (double(i) + 0.5) * width - 0.4 : p.x, p.y, p.deviation,
-                p.note.empty() ? "" : text(p.note));
+                p.note.empty() ? "" : plot_text(p.note));
         }
         out += "EOD\n";
     }
     for (size_t i = 0; i < series.size(); ++i)
-        out += fmt::format("{} $d{} {} title {}", i ? "," : "plot", i, style(series[i], words), text(series[i].name));
-    for (size_t i = 0; i < series.size(); ++i)
-        if (std::any_of(series[i].points.begin(), series[i].points.end(), [](const PlotPoint& p) { return !p.note.empty(); }))
-            out += fmt::format(",$d{} using 1:2:4 with labels left offset 0.8,0.3 font ',11' tc '{}' notitle", i,
-                colors[series[i].color % std::size(colors)]);
+        out += fmt::format("{} $d{} {} title {}", i ? "," : "plot", i, style(series[i], words), plot_text(series[i].name));
+    for (size_t i = 0; i < series.size() && noted; ++i) // said when the pointer rests on a mark
+        out += fmt::format(",$d{} using 1:2:4 with labels hypertext point pt 7 ps 0.7 lc rgb '#ff000000' notitle", i);
     return out + "\n";
 }
 
@@ -196,14 +188,16 @@ std::string draw_series(const PlotSpec& plot, std::vector<PlotSeries> series, co
     for (const PlotSeries& s : series)
         for (const PlotPoint& p : s.points) words = words || std::isnan(p.x);
     // nothing can be drawn at 0 of a logarithmic axis
-    for (PlotSeries& s : series)
+    for (PlotSeries& s : series) {
+        for (PlotPoint& p : s.points) p.y = plot.y_floor > 0 ? std::max(p.y, plot.y_floor) : p.y;
         std::erase_if(s.points, [&](const PlotPoint& p) { return (plot.log_y && !(p.y > 0)) || (plot.log_x && !words && !(p.x > 0)); });
+    }
     std::erase_if(series, [](const PlotSeries& s) { return s.points.empty(); });
     if (series.empty()) return fmt::format("the plot '{}' is not made: no finished run has a {} that can be drawn", plot.title, plot.y);
     const fs::path name = fs::absolute(file);
     fs::path script_file = name, log = name;
     script_file.replace_extension(".gnuplot"), log.replace_extension(".log");
-    base::write_text(script_file, fmt::format("cd {}\n", text(name.parent_path().string())) + script(plot, series, words));
+    base::write_text(script_file, fmt::format("cd {}\n", plot_text(name.parent_path().string())) + script(plot, series, words));
     const int status = gnuplot(script_file, log);
     std::error_code ignored;
     std::string why;

@@ -43,11 +43,27 @@ TEST(Report, PageHoldsAllThatItShows)
             EXPECT_EQ(png.substr(0, 11), "iVBORw0KGgo") << "a PNG in base 64";
             EXPECT_EQ(png.size(), (read_whole(scratch / ("c/" + file)).size() + 2) / 3 * 4) << file;
         }
+        for (const char* key : {"title", "family", "cite"}) EXPECT_FALSE(shown.at(key).get<std::string>().empty()) << key;
         size_t judges = 0;
         for (const Json& t : data.at("truths")) judges += t.at("light") == shown.at("light") && t.at("quantity") == shown.at("quantity");
         EXPECT_EQ(judges, 1u);
     }
     EXPECT_EQ(names, (std::set<std::string>{"shadow_map", "shadow_map:bias_scale=2", "pcss", "ray_traced"}));
+    // under each light the front is what no other beats in both
+    for (const Json& a : data.at("runs")) {
+        bool beaten = false;
+        for (const Json& b : data.at("runs")) {
+            const double ms = a.at("technique_ms").get<double>() - b.at("technique_ms").get<double>();
+            const double mae = a.at("metrics").at("mae").get<double>() - b.at("metrics").at("mae").get<double>();
+            beaten = beaten || (a.at("light") == b.at("light") && ms >= 0 && mae >= 0 && (ms > 0 || mae > 0));
+        }
+        EXPECT_EQ(a.value("front", false), !beaten) << a.at("name");
+    }
+    for (const Json& metric : data.at("metrics")) {
+        EXPECT_FALSE(metric.at("unit").get<std::string>().empty()) << metric;
+        EXPECT_FALSE(metric.at("help").get<std::string>().empty()) << metric;
+    }
+    for (const char* place : {"@REPORT_DATA@", "@REPORT_SCRIPT@"}) EXPECT_EQ(page.find(place), std::string::npos) << place;
     for (const char* elsewhere : {"src=\"http", "href=\"http", "url(http", "@import", "fetch("})
         EXPECT_EQ(page.find(elsewhere), std::string::npos) << elsewhere;
     if (data.contains("no_plot"))
