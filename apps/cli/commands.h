@@ -86,8 +86,8 @@ int merge(const Merge&);
 
 struct Tune {
     Common common;
-    std::string technique, output, reference, minimise = "leak+acne", size = "320x180";
-    std::vector<std::string> scenes, validation, lights, under, vary;
+    std::string technique, output, reference, minimise = "leak+acne,mae", size = "320x180";
+    std::vector<std::string> scenes, validation, cameras, lights, under, vary;
     int budget = 100, seed = 1, truth_samples = 64;
 };
 int tune(const Tune&);

@@ -26,9 +26,9 @@ void open_stages(Experiment& out)
     for (Cell& cell : out.cells) {
         if (scene_text(cell) != opened) {
             stage = open_stage(cell.stage);
-            if (stage.scene.tuning)
-                base::fail(
-                    "{} is a scene for tuning, which published tables may not use; name one without \"tuning\": true", cell.stage.scene);
+            if (stage.scene.tuning || stage.scene.validation)
+                base::fail("{0} is a scene for {1}, which published tables may not use; name one without \"{1}\": true", cell.stage.scene,
+                    stage.scene.tuning ? "tuning" : "validation");
             opened = scene_text(cell), aimed.clear();
         }
         if (stage_text(cell) != aimed) {
