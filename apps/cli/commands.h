@@ -131,6 +131,7 @@ struct View {
     std::string technique = "shadow_map", against, state;
     std::vector<std::string> parameters; ///< name=value
     float exposure = 0, ambient = 0.45f; ///< stops; relative
+    double measure = 0; ///< seconds; 0: does not
 };
 int view(const View&);
 

@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "controls.h"
+#include "pace.h"
 #include "panels.h"
 #include "session.h"
 #include "swapchain.h"
@@ -78,7 +80,43 @@ public:
         return 0;
     }
 
+    /// Goes around the target as a drag of the mouse would, at full size and then as a window without --measure would.
+    int measure()
+    {
+        std::vector<Pace> paces;
+        const scene::Camera start = session_.stage().camera;
+        for (const bool coarse : {false, true}) {
+            session_.coarse_while_moving = coarse;
+            paces.push_back(go_around(start, coarse ? "coarser while moving, where slow" : "full size"));
+        }
+        swapchain_.wait();
+        fmt::print("{}", options_.json ? paces_json(paces, options_).dump(2) + "\n" : paces_text(paces, options_));
+        return 0;
+    }
+
 private:
+    Pace go_around(const scene::Camera& start, const char* name)
+    {
+        Pace pace{name};
+        constexpr int warm = 5; // pipelines, and a first estimate of how long pictures take
+        auto begin = Clock::now(), last = begin;
+        for (int i = -warm; !window_.closing(); ++i) {
+            window_.wait(0);
+            if (window_.pixels().area() == 0) base::fail("the window was minimised, so that nothing was drawn to measure; leave it open");
+            if (i == 0) begin = last = Clock::now();
+            const double part = std::chrono::duration<double>(last - begin).count() / options_.measure;
+            if (i >= 0 && part >= 1.0) break;
+            driven_ = true;
+            session_.attempt([&] { session_.camera(orbit(start, {i < 0 ? 0.0f : float(part) * 2.0f * pi, 0.0f})); });
+            frame();
+            const auto now = Clock::now();
+            if (i >= 0) pace.add(std::chrono::duration<double, std::milli>(now - last).count(), session_);
+            last = now;
+        }
+        driven_ = false;
+        return pace;
+    }
+
     /// Dear ImGui answers an event one or two frames later: a button is drawn pressed, then does what it does.
     static constexpr int settle = 3;
 
@@ -110,7 +148,7 @@ private:
         viewport_.input(panels_, session_, window_.pressed(), seconds);
         ImGui::Render();
         window_.typing(ImGui::GetIO().WantTextInput);
-        session_.attempt([&] { session_.update(viewport_.moving()); });
+        session_.attempt([&] { session_.update(driven_ || viewport_.moving()); });
         if (viewport_.flying()) frames_due_ = std::max(frames_due_, 1);
         if (!swapchain_.present(window_.pixels(), [&](gpu::PassList& passes, gpu::ImageId target) { draw_ui(passes, target); }))
             frames_due_ = std::max(frames_due_, 1);
@@ -182,6 +220,7 @@ private:
     Viewport viewport_;
     uint64_t events_ = 0, frames_ = 0;
     int frames_due_ = settle;
+    bool driven_ = false; ///< by `measure`
     Clock::time_point last_ = Clock::now();
 };
 
@@ -190,7 +229,7 @@ private:
 int run(const Options& options)
 {
     App app(options);
-    return app.run();
+    return options.measure > 0 ? app.measure() : app.run();
 }
 
 } // namespace gnomon::view

@@ -138,7 +138,7 @@ void Picture::compose(const Wish& wish, const Look& look)
             {passes.import(right == RIGHT_TRUTH && truth_primitive_ ? truth_primitive_ : dummy_ids_), gpu::Use::sample}},
         .constants = c,
         .colors = {{passes.import(canvas_), gpu::Load::discard}}});
-    device_.submit(std::move(passes));
+    compose_times_ = device_.submit(std::move(passes)).times;
 }
 
 base::Picture Picture::radiance()

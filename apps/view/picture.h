@@ -45,6 +45,7 @@ public:
     const Side& left() const { return left_; }
     const Side& right() const { return right_; }
     const std::vector<gpu::PassTime>& receiver_times() const { return receiver_times_; }
+    const std::vector<gpu::PassTime>& compose_times() const { return compose_times_; }
     uint32_t map_layers() const { return overlays_.layer_count; } ///< of the left side's map, where it was asked for
     base::Picture radiance(); ///< the left side's, RGB
     base::Picture shown(); ///< the canvas, RGB, encoded for the screen
@@ -59,7 +60,7 @@ private:
     Receivers receivers_;
     Side left_, right_;
     std::string receivers_key_;
-    std::vector<gpu::PassTime> receiver_times_;
+    std::vector<gpu::PassTime> receiver_times_, compose_times_;
     MapOverlays overlays_;
     gpu::Image canvas_, insets_, dummy_, dummy_ids_, truth_primitive_;
 };

@@ -12,7 +12,8 @@ namespace gnomon::view {
 
 namespace {
 
-constexpr double slow = 100; // ms: slower pictures are drawn coarser while something moves
+constexpr double slow
+    = 80; // ms: slower pictures are drawn coarser while something moves; with the panel, the window then keeps 10 a second
 
 constexpr double patient = 4000; // ms: a first picture that took longer is not drawn twice for its times
 
@@ -212,6 +213,7 @@ void Session::update(bool moving)
     const bool drawn = picture().draw(wanted);
     picture().compose(wanted, look);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    drawn_ms = ms;
     if (!drawn || was_coarse != coarse_) return;
     add_times(ms);
     if (!coarse_) full_ms_ = ms;

@@ -79,6 +79,7 @@ public:
     std::vector<std::string> time_order;
     int timed = 0; ///< pictures in these means
     double draw_ms = 0; ///< moving mean of a whole picture
+    double drawn_ms = 0; ///< the last picture
 
 private:
     /// Members are destroyed from the last to the first: each uses those before it.
