@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -71,6 +72,17 @@ TEST_F(SequenceTest, StableCascadesStayWhereTightOnesSwim)
     EXPECT_EQ(stable.sequence.change.size(), 5u);
     EXPECT_GT(stable.sequence.followed, stable.sequence.lost);
     EXPECT_EQ(stable.sequence.moved, 0u);
+}
+
+TEST_F(SequenceTest, AFitThatJumpsPops)
+{
+    // on the way ahead the warp of lispsm takes another turn between two frames; a map that does not move has nothing to jump
+    Place place({.scene = "contact", .size = {128, 72}});
+    const std::vector<lab::Run> runs
+        = place.measure("camera,forward=0.15,frames=8", {"shadow_map:fit=uniform:map_size=256", "shadow_map:fit=lispsm:map_size=256"});
+    EXPECT_GT(runs[1].metrics.at("popping"), 5 * runs[0].metrics.at("popping"));
+    const std::vector<double>& change = runs[1].sequence.change;
+    EXPECT_EQ(std::max_element(change.begin(), change.end()) - change.begin(), 3);
 }
 
 TEST_F(SequenceTest, SamplesThatTurnEveryFrameFlicker)
