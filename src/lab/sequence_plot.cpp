@@ -27,7 +27,7 @@ std::string draw_changes(const std::vector<Run>& runs, const std::string& light,
     }
     PlotSpec spec;
     spec.file = file.stem().string();
-    spec.title = fmt::format("Change of the error from the frame before, {}: {}", light, motion);
+    spec.title = fmt::format("Change of the error, {}: {}", light, motion);
     spec.x_label = "frame", spec.y_label = "mean absolute change";
     return draw_series(spec, std::move(series), file);
 }

@@ -28,9 +28,9 @@ struct Point {
     float width; ///< of a pixel there
 };
 
-/// What is seen of the error at a point.
+/// What is seen at a point: means of the error and of the test alone, and the variance of the error's.
 struct Seen {
-    double error = 0, variance = 0;
+    double error = 0, test = 0, variance = 0;
 };
 enum class Found { here, lost, moved };
 
@@ -42,15 +42,18 @@ public:
         , size_(frame.shown.truth.size)
         , fixed_(fixed)
         , errors_(size_.area(), 0.0f)
+        , tests_(size_.area(), 0.0f)
         , variances_(size_.area(), 0.0f)
         , sums_(size_t(size_.width + 1) * size_t(size_.height + 1), 0)
     {
         const Grey grey(frame.shown);
-        const size_t row = size_t(size_.width) + 1;
+        const size_t width = size_t(size_.width), row = width + 1;
         for (size_t i = 0; i < errors_.size(); ++i) {
+            tests_[i] = grey.test(i);
             if (grey.scored(i)) errors_[i] = grey.difference(i), variances_[i] = grey.variance(i);
-            const size_t at = (i / (row - 1) + 1) * row + i % (row - 1) + 1;
-            sums_[at] = sums_[at - 1] + sums_[at - row] - sums_[at - row - 1] + (errors_[i] != 0.0f || variances_[i] != 0.0f);
+            const bool step = (i % width > 0 && tests_[i] != tests_[i - 1]) || (i >= width && tests_[i] != tests_[i - width]);
+            const size_t at = (i / width + 1) * row + i % width + 1;
+            sums_[at] = sums_[at - 1] + sums_[at - row] - sums_[at - row - 1] + (errors_[i] != 0.0f || variances_[i] != 0.0f || step);
         }
     }
 
@@ -92,28 +95,30 @@ private:
         const int left = std::max(int(px) - reach, 0), right = std::min(int(px) + reach, size_.width - 1);
         const int top = std::max(int(py) - reach, 0), bottom = std::min(int(py) + reach, size_.height - 1);
         const auto sum = [&](int x, int y) { return sums_[size_t(y) * (size_t(size_.width) + 1) + size_t(x)]; };
-        if (sum(right + 1, bottom + 1) - sum(left, bottom + 1) - sum(right + 1, top) + sum(left, top) == 0) return {};
+        if (sum(right + 1, bottom + 1) - sum(left, bottom + 1) - sum(right + 1, top) + sum(left, top) == 0)
+            return {0, double(tests_[index(int(px), int(py))]), 0};
         const auto weight = [](float d) { return std::exp(-d * d / (2 * sigma * sigma)); };
         std::array<float, 2 * reach + 1> across{};
         for (int x = left; x <= right; ++x) across[size_t(x - left)] = weight(float(x) + 0.5f - px);
-        double total = 0, error = 0, variance = 0;
+        double total = 0, error = 0, test = 0, variance = 0;
         for (int y = top; y <= bottom; ++y) {
             const float down = weight(float(y) + 0.5f - py);
             for (int x = left; x <= right; ++x) {
                 const size_t i = index(x, y);
                 if (!scored(i) || !same_surface(point, i)) continue;
                 const double w = double(down * across[size_t(x - left)]);
-                total += w, error += w * double(errors_[i]), variance += w * w * double(variances_[i]);
+                total += w, error += w * double(errors_[i]), test += w * double(tests_[i]), variance += w * w * double(variances_[i]);
             }
         }
-        return {error / total, variance / (total * total)};
+        return {error / total, test / total, variance / (total * total)};
     }
 
     const SequenceFrame& frame_;
     const base::Size size_;
     const bool fixed_;
-    std::vector<float> errors_, variances_;
-    std::vector<uint32_t> sums_; ///< of the pixels above and left of each corner, those that have an error or a variance
+    std::vector<float> errors_, tests_, variances_;
+    std::vector<uint32_t> sums_; ///< of the pixels above and left of each corner, those that are not as quiet as the rest: wrong, noisy, or
+                                 ///< unlike a neighbour
 };
 
 struct Mean {
@@ -129,6 +134,7 @@ class Follower {
 public:
     Follower(const std::vector<SequenceFrame>& frames, bool fixed)
         : size_(frames.front().shown.truth.size)
+        , fixed_(fixed)
         , changes_(frames.size() - 1)
         , counts_(size_.area(), 0)
     {
@@ -160,7 +166,7 @@ private:
         if (layers_[t].find(point, now) != Found::here) return count(Found::lost);
         const Found earlier = t > 0 ? layers_[t - 1].find(point, before) : Found::lost;
         if (earlier == Found::here) {
-            changes_[t - 1].add(std::abs(now.error - before.error));
+            changes_[t - 1].add(std::abs(change(before, now)));
             noise_.add(change_by_noise(now, before));
         }
         if (t == 0 || t + 1 == layers_.size()) return;
@@ -168,15 +174,25 @@ private:
         const Found later = layers_[t + 1].find(point, after);
         count(later);
         if (later != Found::here) return;
-        const double d1 = now.error - before.error, d2 = after.error - now.error;
+        const double d1 = change(before, now), d2 = change(now, after);
         flicker_.add(d1 * d2 < 0 ? std::min(std::abs(d1), std::abs(d2)) : 0.0);
         swimming_.add(0.5 * std::abs(d1 + d2));
         out_.map.values[pixel] += float(0.5 * (std::abs(d1) + std::abs(d2))), ++counts_[pixel];
     }
 
+    /// Where nothing but the camera moves, the truth at a point of a surface stays, so that the change of the test alone is that of the
+    /// error. Each holds what the pixel grid makes of edges, the one of the test's, the other of those in which test and truth differ: a
+    /// filtered edge against a sharp one, or a sharp one against the same. What is real is in both.
+    double change(const Seen& before, const Seen& now) const
+    {
+        const double error = now.error - before.error, test = now.test - before.test;
+        return fixed_ || std::abs(error) < std::abs(test) ? error : test;
+    }
+
     void count(Found found) { ++(found == Found::here ? out_.followed : found == Found::lost ? out_.lost : out_.moved); }
 
     base::Size size_;
+    bool fixed_;
     std::vector<Layer> layers_;
     std::vector<Mean> changes_;
     std::vector<uint32_t> counts_;
