@@ -75,10 +75,7 @@ public:
             notice();
             write_state(frames_due_ <= 0 && !viewport_.moving() && !panels_.playing);
         }
-        swapchain_.wait();
-        const auto& errors = device_->validation_errors();
-        if (!errors.empty()) base::fail("the validation layers found {} errors, the first: {}", errors.size(), errors.front());
-        return 0;
+        return finish();
     }
 
     /// Goes around the target as a drag of the mouse would, at full size and then as a window without --measure would.
@@ -90,12 +87,19 @@ public:
             session_.coarse_while_moving = coarse;
             paces.push_back(go_around(start, coarse ? "coarser while moving, where slow" : "full size"));
         }
-        swapchain_.wait();
         fmt::print("{}", options_.json ? paces_json(paces, options_).dump(2) + "\n" : paces_text(paces, options_));
-        return 0;
+        return finish();
     }
 
 private:
+    int finish()
+    {
+        swapchain_.wait();
+        const auto& errors = device_->validation_errors();
+        if (!errors.empty()) base::fail("the validation layers found {} errors, the first: {}", errors.size(), errors.front());
+        return 0;
+    }
+
     Pace go_around(const scene::Camera& start, const char* name)
     {
         Pace pace{name};

@@ -18,7 +18,7 @@ namespace {
 
 constexpr uint32_t inset_columns = 4, inset_cell = 192; // pixels a side
 constexpr base::Size insets_size{4 * 192, 2 * 192}; // eight layers at most
-constexpr float usual_pixels = 64; // a penumbra's width at the end of the colours
+constexpr float usual_pixels = 24; // a penumbra's width at the end of the colours
 
 } // namespace
 
@@ -111,6 +111,7 @@ void Overlays::record(gpu::PassList& passes, const shadow::Frame& frame, const s
 {
     layer_count_ = map.constants.layer_count;
     if (layer_count_ > 0) draw_map(passes, frame, map);
+    offers_.clear();
     for (const shadow::Inspection& i : inspections_) offers_.push_back({i.name, i.unit, i.label});
     if (!inspections_.empty()) draw_inspection(passes, frame);
     inspections_.clear(); // its images end with the pass list
