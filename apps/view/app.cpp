@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace gnomon::view {
 
@@ -72,12 +73,9 @@ public:
             frame();
             window_.wait(0); // so that the state is not called idle while there are events
             notice();
-            write_state(frames_due_ <= 0 && !viewport_.moving());
+            write_state(frames_due_ <= 0 && !viewport_.moving() && !panels_.playing);
         }
-        swapchain_.wait();
-        const auto& errors = device_->validation_errors();
-        if (!errors.empty()) base::fail("the validation layers found {} errors, the first: {}", errors.size(), errors.front());
-        return 0;
+        return finish();
     }
 
     /// Goes around the target as a drag of the mouse would, at full size and then as a window without --measure would.
@@ -89,12 +87,19 @@ public:
             session_.coarse_while_moving = coarse;
             paces.push_back(go_around(start, coarse ? "coarser while moving, where slow" : "full size"));
         }
-        swapchain_.wait();
         fmt::print("{}", options_.json ? paces_json(paces, options_).dump(2) + "\n" : paces_text(paces, options_));
-        return 0;
+        return finish();
     }
 
 private:
+    int finish()
+    {
+        swapchain_.wait();
+        const auto& errors = device_->validation_errors();
+        if (!errors.empty()) base::fail("the validation layers found {} errors, the first: {}", errors.size(), errors.front());
+        return 0;
+    }
+
     Pace go_around(const scene::Camera& start, const char* name)
     {
         Pace pace{name};
@@ -130,6 +135,7 @@ private:
     void notice()
     {
         if (window_.events() != events_) events_ = window_.events(), frames_due_ = settle;
+        if (panels_.playing) frames_due_ = std::max(frames_due_, 1);
         if (session_.truth_moved()) frames_due_ = std::max(frames_due_, 1);
         for (const std::string& file : window_.dropped()) session_.attempt([&] { session_.open(file); });
     }
@@ -148,11 +154,28 @@ private:
         viewport_.input(panels_, session_, window_.pressed(), seconds);
         ImGui::Render();
         window_.typing(ImGui::GetIO().WantTextInput);
-        session_.attempt([&] { session_.update(driven_ || viewport_.moving()); });
+        if (panels_.playing) play(seconds);
+        session_.attempt([&] { session_.update(panels_.playing || driven_ || viewport_.moving()); });
         if (viewport_.flying()) frames_due_ = std::max(frames_due_, 1);
         if (!swapchain_.present(window_.pixels(), [&](gpu::PassList& passes, gpu::ImageId target) { draw_ui(passes, target); }))
             frames_due_ = std::max(frames_due_, 1);
         serve();
+    }
+
+    /// By the clock; where loading is slow, in larger steps.
+    void play(double seconds)
+    {
+        const double duration = session_.duration();
+        if (!(duration > 0)) {
+            panels_.playing = false;
+            return;
+        }
+        const double time = session_.time() + std::min(seconds, 0.5 * duration);
+        session_.attempt([&] {
+            panels_.playing = false; // where it throws
+            session_.time(time - std::floor(time / duration) * duration);
+            panels_.playing = true;
+        });
     }
 
     void draw_ui(gpu::PassList& passes, gpu::ImageId target)
@@ -195,6 +218,12 @@ private:
         session_.say("wrote " + file.string());
     }
 
+    std::string inspected() const
+    {
+        const Overlays::Offer* offer = session_.picture().overlays().offered();
+        return offer ? offer->name : std::string();
+    }
+
     void write_state(bool idle)
     {
         if (options_.state.empty()) return;
@@ -203,9 +232,10 @@ private:
             {"lights", session_.light_words()}, {"show", show_names()[session_.look.show]}, {"split", session_.look.split},
             {"against", int(session_.against)}, {"truth_samples", session_.truth_samples()}, {"truth_finished", session_.truth_finished()},
             {"message", session_.message.text}, {"error", session_.standing_error()}, {"draw_ms", session_.draw_ms}, {"frames", frames_},
-            {"coarse", session_.coarse()}, {"help", panels_.help}, {"command", session_.command()},
-            {"window", {swapchain_.size().width, swapchain_.size().height}}, {"picture", {int(r[0]), int(r[1]), int(r[2]), int(r[3])}},
-            {"idle", idle}, {"places", panels_.places}, {"times", session_.times}};
+            {"coarse", session_.coarse()}, {"time", session_.time()}, {"duration", session_.duration()}, {"inspected", inspected()},
+            {"help", panels_.help}, {"command", session_.command()}, {"window", {swapchain_.size().width, swapchain_.size().height}},
+            {"picture", {int(r[0]), int(r[1]), int(r[2]), int(r[3])}}, {"idle", idle}, {"places", panels_.places},
+            {"times", session_.times}};
         session_.attempt([&] { base::write_text(options_.state, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace)); });
     }
 
