@@ -54,7 +54,8 @@ double Preset::Place::ratio() const { return std::accumulate(ratios.begin(), rat
 
 bool Ratios::gained() const
 {
-    return mean < 1 - error && std::all_of(terms.begin(), terms.end(), [](double t) { return t <= 1; });
+    constexpr double least = 0.005, dear = 0.01;
+    return mean < 1 - std::max(error, least) && std::all_of(terms.begin(), terms.end(), [](double t) { return t <= 1 + dear; });
 }
 
 Ratios ratios(const std::vector<Preset::Place>& places)

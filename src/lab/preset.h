@@ -37,7 +37,7 @@ struct Preset {
 struct Ratios {
     double mean = 1, error = 0; ///< over the places, and its standard error
     std::vector<double> terms; ///< of each, the mean over the places
-    /// Smaller than 1 by more than the standard error, and no term larger than it was.
+    /// Smaller than 1 by more than the standard error and half a percent, and no term larger than it was by more than a percent.
     bool gained() const;
 };
 Ratios ratios(const std::vector<Preset::Place>&);

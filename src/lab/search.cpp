@@ -78,8 +78,8 @@ private:
     }
 
     /// Whether `point`, read at the first `count` places, loses against `from`: it breaks more constraints than `from` at all places, or
-    /// lies above it by twice the standard error of their differences. Where they are all 0, the parameter that was moved has no effect:
-    /// another one switches it off.
+    /// lies above it by more than the deviation of their differences allows. Where they are all 0, the parameter that was moved has no
+    /// effect: another one switches it off.
     bool loses(const Point& point, const Point& from, const Reading& reading, size_t count)
     {
         double violation = 0, mean = 0, squares = 0;
@@ -92,7 +92,9 @@ private:
         if (violation > reading.violation) return true;
         constexpr size_t least = 3; // fewer have no deviation to speak of
         if (count < least || violation < reading.violation || reading.violation > 0) return false;
-        return mean >= 2.0 * std::sqrt(std::max(0.0, squares - mean * mean) / double(count - 1));
+        const double freedom = double(count - 1),
+                     quantile = 2.0 + 9.0 / (freedom * freedom); // Student's, one side of 2.5 %, within a tenth
+        return mean >= quantile * std::sqrt(std::max(0.0, squares - mean * mean) / freedom);
     }
 
     std::optional<Reading> at_all(const Point& point)

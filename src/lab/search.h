@@ -66,7 +66,7 @@ struct SearchResult {
 /// Half of the budget is for points that cover the space evenly (a Roberts sequence; every second one, and with more than six axes each,
 /// differs from the start in about two axes only), measured at few places first, of which the better third goes on to more; the rest for a
 /// pattern search (Hooke and Jeeves 1961) from the best of them, each step of which is a race: places are read in a shuffled order, and the
-/// step is given up once it lies above its origin by twice the standard error of the differences so far (as in F-Race, Birattari et al.
+/// step is given up once Student's test of the differences so far puts it above its origin (as in F-Race, Birattari et al.
 /// 2002), which is at once where they are all 0, because another parameter switches this one off. The same options give the same points.
 SearchResult search(const SearchOptions&);
 

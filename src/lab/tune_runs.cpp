@@ -69,12 +69,12 @@ const TuneRuns::Kept& TuneRuns::at(const Choice& choice, size_t place, bool star
     Kept now;
     try {
         Run reference;
-        if (!relative_.empty()) reference = meter_.measure_time(place, base_, repeats_);
-        if (!start && costs_bound() && too_dear(choice, place, reference, now)) return record(k, choice, place, std::move(now));
+        if (timed()) reference = meter_.measure_time(place, base_, repeats_);
+        if (!start && bytes_bound() && too_large(choice, place, now)) return record(k, choice, place, std::move(now));
         const Run run = meter_.measure(place, choice, repeats_);
         for (const std::string& q : quantities_) now.values[q] = quantity_of(run, q);
         for (const std::string& q : relative_)
-            now.reference[q] = is_cost(q) ? quantity_of(reference, q) : start ? now.values[q] : at(base_, place, true).values.at(q);
+            now.reference[q] = q == "time" ? reference.technique_ms : start ? now.values[q] : at(base_, place, true).values.at(q);
         // other work on the machine makes times longer and never shorter
         for (int again = 0; again < 2 && too_slow(now); ++again) {
             now.reference["time"] = std::min(now.reference["time"], meter_.measure_time(place, base_, repeats_).technique_ms);
@@ -96,23 +96,20 @@ const TuneRuns::Kept& TuneRuns::record(const std::string& k, const Choice& choic
     return known_[k] = std::move(now);
 }
 
-bool TuneRuns::costs_bound() const
+bool TuneRuns::bytes_bound() const
 {
-    return std::any_of(goal_.under.begin(), goal_.under.end(), [](const Constraint& c) { return is_cost(c.quantity); });
+    return std::any_of(goal_.under.begin(), goal_.under.end(), [](const Constraint& c) { return c.quantity == "bytes"; });
 }
 
-bool TuneRuns::too_dear(const Choice& choice, size_t place, const Run& reference, Kept& now)
+bool TuneRuns::timed() const { return std::find(relative_.begin(), relative_.end(), "time") != relative_.end(); }
+
+bool TuneRuns::too_large(const Choice& choice, size_t place, Kept& now)
 {
-    const Run first = meter_.measure_time(place, choice, 1);
     Kept costs;
-    for (const Constraint& c : goal_.under)
-        if (is_cost(c.quantity)) {
-            costs.values[c.quantity] = quantity_of(first, c.quantity);
-            if (c.relative) costs.reference[c.quantity] = quantity_of(reference, c.quantity);
-        }
-    constexpr double far = 3; // the first frame makes pipelines, and other work on the machine comes between
-    const bool out = std::any_of(goal_.under.begin(), goal_.under.end(),
-        [&](const Constraint& c) { return is_cost(c.quantity) && missed(c, costs) > (c.quantity == "time" ? far : 0.0); });
+    costs.values["bytes"] = double(meter_.measure_time(place, choice, 1).bytes),
+    costs.reference["bytes"] = at(base_, place, true).values.at("bytes");
+    const bool out = std::any_of(
+        goal_.under.begin(), goal_.under.end(), [&](const Constraint& c) { return c.quantity == "bytes" && missed(c, costs) > 0; });
     if (out) now = std::move(costs);
     return out;
 }

@@ -22,7 +22,7 @@ public:
         std::string reference; ///< of filter metrics
     };
     struct Kept {
-        std::map<std::string, double> values; ///< by quantity; nothing where the device cannot run it, costs alone where those miss a bound
+        std::map<std::string, double> values; ///< by quantity; nothing where the device cannot run it, bytes alone where those miss a bound
         std::map<std::string, double> reference; ///< the same of the search's start, measured just before; only what ratios need
     };
 
@@ -42,9 +42,10 @@ private:
     std::string key(const Choice&, size_t place);
     void take(const std::string& line);
     const Kept& record(const std::string& key, const Choice&, size_t place, Kept);
-    bool costs_bound() const;
-    /// What misses a bound by far in one frame is not measured further, since it takes longest: `now` gets its costs alone.
-    bool too_dear(const Choice&, size_t place, const Run& reference, Kept& now);
+    bool bytes_bound() const;
+    bool timed() const; ///< as a multiple of the start's
+    /// What misses a bound of bytes is not measured further than one frame, since large maps take longest: `now` gets its bytes alone.
+    bool too_large(const Choice&, size_t place, Kept& now);
     bool too_slow(const Kept&) const;
 
     gpu::Device& device_;

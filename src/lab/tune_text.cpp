@@ -33,8 +33,8 @@ std::string tune_text(const Tuned& tuned)
     table("validation", p.validation);
     if (!tuned.improved) out += "nothing better than the start was found\n";
     if (!tuned.written)
-        out += "no preset was written: in validation it gains no more than the standard error, or one term is worse, or a bound is not "
-               "kept\n";
+        out += "no preset was written: in validation it gains no more than the standard error and half a percent, or a term is worse by "
+               "more than a percent, or a bound is not kept\n";
     return out;
 }
 

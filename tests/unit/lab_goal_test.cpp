@@ -122,6 +122,8 @@ TEST(Ratios, GainOnlyBeyondTheirErrorAndWithoutAWorseTerm)
     EXPECT_TRUE(gained({{0.9, 0.8}, {0.85, 0.95}}));
     EXPECT_FALSE(gained({{0.5, 0.5}, {1.45, 1.45}})) << "less than its standard error";
     EXPECT_FALSE(gained({{0.5, 1.1}, {0.5, 1.1}})) << "the second term is worse";
+    EXPECT_TRUE(gained({{0.9, 1.009}, {0.9, 1.009}})) << "worse by less than a percent";
+    EXPECT_FALSE(gained({{0.996, 1}, {0.996, 1}})) << "less than half a percent";
     EXPECT_FALSE(gained({{1, 1}, {1, 1}}));
     EXPECT_FALSE(gained({}));
 }
