@@ -94,7 +94,7 @@ private:
                                       : fmt::format("{} is left out because {}", out_.left_out.front().what, out_.left_out.front().why));
     }
 
-    /// Settled ones apart.
+    /// Readings at most: what is far too dear is skipped.
     size_t expected() const
     {
         size_t count = options_.exhaustive ? candidates_.size() : 0;
