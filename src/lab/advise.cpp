@@ -94,7 +94,7 @@ private:
                                       : fmt::format("{} is left out because {}", out_.left_out.front().what, out_.left_out.front().why));
     }
 
-    /// Settled ones apart.
+    /// Readings at most: what is far too dear is skipped.
     size_t expected() const
     {
         size_t count = options_.exhaustive ? candidates_.size() : 0;
@@ -154,9 +154,9 @@ private:
         const std::optional<size_t> best = rule.best_of_all();
         if (!best) return;
         out_.best = measured(rule, *best);
-        const double least = out_.best->reading.error;
-        // both 0: nothing lost
-        if (out_.chosen && out_.chosen->reading.error > least) out_.regret = missed_by(out_.chosen->reading.error, least);
+        // a picture tells no errors apart that are less than one wrong pixel
+        const double least = std::max(out_.best->reading.error, 1.0 / double(out_.size.area()));
+        if (out_.chosen) out_.regret = missed_by(out_.chosen->reading.error, least);
         if (!out_.chosen) out_.nothing += fmt::format(" (measuring all finds {})", choice_text(out_.best->choice));
     }
 

@@ -70,7 +70,7 @@ struct Advice {
     std::vector<std::string> reasons; ///< sentences
     std::vector<LeftOut> left_out;
     std::optional<Measured> best; ///< of all candidates at full size; only where exhaustive
-    double regret = 0; ///< by which part the choice's error is above the best one's
+    double regret = 0; ///< by which part the choice's error is above the best one's, or above one wrong pixel where that is more
 };
 
 /// Throws base::Error on names that do not exist and where no technique can run.

@@ -82,11 +82,11 @@ std::string advice_text(const Advice& a)
     out += fmt::format(
         "  {:>10} {:>9} {:>9}  {}\n", a.metric, "ms", "MiB", "errors against times, the front; times are the least of some frames");
     for (const Measured& m : a.front)
-        out += fmt::format("  {:10.5f} {:9.3f} {:9.2f}  {}{}\n", m.reading.error, m.reading.ms, mib(m), choice_text(m.choice),
+        out += fmt::format("  {:10.4g} {:9.3f} {:9.2f}  {}{}\n", m.reading.error, m.reading.ms, mib(m), choice_text(m.choice),
             m.excess > 0 ? "  (over the budget)" : "");
     if (a.chosen) out += fmt::format("take {}\n{}", choice_text(a.chosen->choice), params_text(a.chosen->choice));
     if (a.best && a.chosen)
-        out += fmt::format("of all {} at full size, {} errs least within the budget: {} {:.5f}; the choice loses {:.1f} %\n", a.candidates,
+        out += fmt::format("of all {} at full size, {} errs least within the budget: {} {:.4g}; the choice loses {:.1f} %\n", a.candidates,
             choice_text(a.best->choice), a.metric, a.best->reading.error, 100.0 * a.regret);
     return out;
 }

@@ -176,9 +176,9 @@ std::vector<std::string> feature_sentences(const Features& f)
     if (f.see_through)
         out.push_back(fmt::format(
             "{:.2g} % of the triangles are semitransparent: truth is the light that comes through them, by colour", part(f.see_through)));
-    out.push_back(fmt::format("the light is a {} one{}{}; {:.2g} % of what is seen is in its shadow", scene::kind_name(f.light),
+    out.push_back(fmt::format("the light is a {} one{}{}; {:.2g} % of what is seen is in {}", scene::kind_name(f.light),
         f.soft ? fmt::format(" with an area: penumbrae are about {:.0f} pixels wide", f.penumbra_pixels) : ", hard",
-        f.textured ? ", with an image" : "", 100.0 * f.shadowed));
+        f.textured ? ", with an image" : "", 100.0 * f.shadowed, f.see_through ? "the shadow of opaque casters" : "shadow"));
     if (f.moves) out.push_back("the model moves: measured is one moment of it");
     return out;
 }

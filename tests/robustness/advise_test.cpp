@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 
 namespace gnomon::tests {
@@ -18,10 +19,10 @@ const std::vector<std::string> few = {"--light", "sun,elevation=50,angle=0", "--
     "csm,evsm,lvsm,msm,esm,vsm,power_cdf,cssm,vssm,moment_soft,back_projection,occlusion_textures,light_sampling,pcss,blurred_depth,"
     "per_triangle_volumes,shadow_volumes,hybrid_map_volume,virtual_shadow_map"};
 
-std::vector<std::string> advising(std::vector<std::string> scenes, std::vector<std::string> more)
+std::vector<std::string> advising(const std::vector<std::string>& scenes, const std::vector<std::string>& more)
 {
     std::vector<std::string> words = {"advise"};
-    for (const auto* part : {&scenes, &few, &more}) words.insert(words.end(), part->begin(), part->end());
+    for (const std::vector<std::string>& part : {scenes, few, more}) words.insert(words.end(), part.begin(), part.end());
     return words;
 }
 
@@ -131,14 +132,17 @@ TEST(Advise, InterruptedLeavesNoPartOfAFile)
 {
     const Scratch scratch;
     const std::vector<std::string> words = advising({"plane", "contact"}, {"--budget", "1000x", "-o", "table.md"});
-    RunOptions early{.kill_when
-        = [begin = std::chrono::steady_clock::now()] { return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(300); },
-        .signal = SIGINT};
+    RunOptions early;
+    early.signal = SIGINT;
+    early.kill_when
+        = [begin = std::chrono::steady_clock::now()] { return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(300); };
     EXPECT_EQ(run_gnomon(words, scratch.folder(), early).signal, SIGINT);
     EXPECT_EQ(files_in(scratch), std::vector<std::string>());
 
     // the first scene's line is there, whole; that of the second never comes
-    RunOptions between{.kill_when = [&] { return fs::exists(scratch / "table.md"); }, .signal = SIGINT};
+    RunOptions between;
+    between.signal = SIGINT;
+    between.kill_when = [&] { return fs::exists(scratch / "table.md"); };
     EXPECT_EQ(run_gnomon(words, scratch.folder(), between).signal, SIGINT);
     EXPECT_EQ(files_in(scratch), std::vector<std::string>{"table.md"});
     const std::string table = read_whole(scratch / "table.md");
