@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.h"
+#include "options.h"
 #include "usage.h"
 
 #include <fmt/format.h>
@@ -11,88 +11,6 @@ namespace {
 
 using namespace gnomon;
 
-void add_common(CLI::App& app, cli::Common& common, bool device = true)
-{
-    if (device) {
-        app.add_option("--device", common.device, "Device to use: part of its name (default: the first GPU, else the software driver)");
-        app.add_flag("--validation", common.validation, "Run under the Vulkan validation layers; errors end the run");
-    }
-    app.add_flag("--json", common.json, "Print the result as JSON");
-}
-
-void add_picture(CLI::App& app, cli::Picture& picture, bool camera = true)
-{
-    app.add_option("scene", picture.scene, "A built-in scene (see `gnomon list --scenes`), a .glb or .gltf file, or a scene .json")
-        ->required();
-    if (camera) app.add_option("--camera", picture.camera, "A camera of the scene by name, or eye=x/y/z,target=x/y/z,fov=degrees, or fit");
-    app.add_option("--light", picture.lights,
-        "A light of the scene by name, or kind,key=value,... (sun,elevation=40,azimuth=120,angle=0.53); may be repeated");
-    app.add_option("--size", picture.size, "Width and height in pixels, as 960x540")->capture_default_str();
-    app.add_option("--time", picture.time, "Seconds into the scene's animation")->capture_default_str();
-    app.add_option("--detail", picture.detail, "Triangle count of a built-in scene, times this")->capture_default_str();
-    app.add_option("--gltf-scene", picture.gltf_scene, "Which scene of a glTF file (default: its own default)");
-}
-
-/// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs.
-std::vector<std::string> technique_options(const CLI::App& app, const std::string& choice)
-{
-    std::vector<std::string> out;
-    const std::vector<std::string> rest = app.remaining();
-    if (rest.empty()) return out;
-    const std::string technique = cli::technique_id(choice);
-    for (size_t i = 0; i < rest.size(); ++i) {
-        const std::string& word = rest[i];
-        if (word.rfind("--" + technique + ".", 0) != 0)
-            cli::refuse_words(app, {word}, fmt::format(" (parameters are given as --{}.NAME VALUE)", technique));
-        std::string item = word.substr(3 + technique.size());
-        if (item.find('=') == std::string::npos) {
-            if (i + 1 >= rest.size()) throw cli::UsageError(word + " needs a value");
-            item += "=" + rest[++i];
-        }
-        out.push_back(item);
-    }
-    return out;
-}
-
-void add_slice(CLI::App& app, cli::Slice& slice)
-{
-    add_picture(app, slice.picture, false);
-    app.add_option("--technique", slice.technique, "Technique, by its id")->capture_default_str();
-    app.add_option("--centre", slice.centre, "A point of the plane, x/y/z (default: the scene's centre)");
-    app.add_option("--right", slice.right, "Direction that is right in the picture, x/y/z (default: level, towards the light)");
-    app.add_option("--up", slice.up, "Direction that is up in it, x/y/z (default: 0/1/0)");
-    app.add_option("--height", slice.height, "Metres from bottom to top (default: the scene fits)")->check(CLI::Range(0.0, 1e9));
-    app.add_flag("--truth", slice.truth, "Also the ray-traced twin, and the difference to it");
-    app.add_option("--truth-samples", slice.truth_samples, "Light samples a point of the truth")
-        ->check(CLI::Range(1, 1 << 20))
-        ->capture_default_str();
-    app.add_option(
-        "-o,--output", slice.output, "PNG file; an EXR with the values is written beside it (default: out/SCENE.slice.TECHNIQUE.png)");
-    app.allow_extras();
-    add_common(app, slice.common);
-}
-
-void add_look(CLI::App& app, float& exposure, float& ambient)
-{
-    app.add_option("--exposure", exposure, "Stops brighter or darker")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
-    app.add_option("--ambient", ambient, "Light from all around, relative to the lights")
-        ->check(CLI::Range(0.0, 100.0))
-        ->capture_default_str();
-}
-
-void add_view(CLI::App& app, cli::View& view)
-{
-    add_picture(app, view.picture);
-    app.add_option("--technique", view.technique, "Technique, by its id")->capture_default_str();
-    app.add_option("--against", view.against, "What is shown on the right: truth, or a technique with parameters after colons");
-    app.add_option("--state", view.state, "A JSON file that always says what the window shows and where its widgets are");
-    app.add_option("--measure", view.measure, "Go around the camera's target in so many seconds, print pictures a second, and end")
-        ->check(CLI::Range(0.1, 600.0));
-    add_look(app, view.exposure, view.ambient);
-    app.allow_extras();
-    add_common(app, view.common);
-}
-
 void add_sweep(CLI::App& app, cli::Sweep& sweep)
 {
     app.add_option("experiment", sweep.experiment, "The experiment file (docs/experiments.md)")->required();
@@ -100,7 +18,7 @@ void add_sweep(CLI::App& app, cli::Sweep& sweep)
     app.add_option("--shard", sweep.shard, "Make only part I of N, as 2/3; `gnomon merge` puts the parts together");
     app.add_flag("--again", sweep.again, "Measure finished runs anew");
     app.add_flag("--plan", sweep.plan, "List the runs and make none");
-    add_common(app, sweep.common);
+    cli::add_common(app, sweep.common);
 }
 
 void add_merge(CLI::App& app, cli::Merge& merge)
@@ -108,7 +26,7 @@ void add_merge(CLI::App& app, cli::Merge& merge)
     app.add_option("experiment", merge.experiment, "The experiment file")->required();
     app.add_option("files", merge.files, "The shards' results.I-of-N.jsonl files")->required();
     app.add_option("-o,--output", merge.output, "Folder for results, tables and plots (default: that of the first file)");
-    add_common(app, merge.common, false);
+    cli::add_common(app, merge.common, false);
 }
 
 void add_tune(CLI::App& app, cli::Tune& tune)
@@ -136,7 +54,7 @@ void add_tune(CLI::App& app, cli::Tune& tune)
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
     app.add_option("-o,--output", tune.output, "The preset, a .json file")->required();
-    add_common(app, tune.common);
+    cli::add_common(app, tune.common);
 }
 
 void add_advise(CLI::App& app, cli::Advise& advise)
@@ -159,7 +77,7 @@ void add_advise(CLI::App& app, cli::Advise& advise)
         ->capture_default_str();
     app.add_option("--repeats", advise.repeats, "Timed repetitions after a warm-up")->check(CLI::Range(2, 10000))->capture_default_str();
     app.add_option("-o,--output", advise.output, "Also a table of all scenes, a .md file");
-    add_common(app, advise.common);
+    cli::add_common(app, advise.common);
 }
 
 int run(int argc, char** argv)
@@ -172,11 +90,11 @@ int run(int argc, char** argv)
     cli::List list;
     CLI::App* list_app = app.add_subcommand("list", "Techniques, lights they take, what this device cannot run and why");
     list_app->add_flag("--scenes", list.scenes, "List the built-in scenes instead");
-    add_common(*list_app, list.common);
+    cli::add_common(*list_app, list.common);
 
     cli::Render render;
     CLI::App* render_app = app.add_subcommand("render", "Make a picture");
-    add_picture(*render_app, render.picture);
+    cli::add_picture(*render_app, render.picture);
     render_app->add_option("--technique", render.technique, "Technique, by its id")->capture_default_str();
     render_app->add_option("-o,--output", render.output, "PNG or EXR file (default: out/SCENE.TECHNIQUE.png)");
     render_app
@@ -194,27 +112,27 @@ int run(int argc, char** argv)
     render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    add_look(*render_app, render.exposure, render.ambient);
+    cli::add_look(*render_app, render.exposure, render.ambient);
     render_app->allow_extras();
-    add_common(*render_app, render.common);
+    cli::add_common(*render_app, render.common);
 
     cli::View view;
     CLI::App* view_app = app.add_subcommand("view", "A window: every technique and parameter, beside the truth or another technique");
-    add_view(*view_app, view);
+    cli::add_view(*view_app, view);
 
     cli::Truth truth;
     CLI::App* truth_app = app.add_subcommand("truth", "Ray-traced visibility with its variance, by the CPU");
-    add_picture(*truth_app, truth.picture);
+    cli::add_picture(*truth_app, truth.picture);
     truth_app->add_option("-o,--output", truth.output, "EXR file; a PNG is written beside it (default: out/SCENE.truth.exr)");
     truth_app->add_option("--samples", truth.samples, "Light samples a pixel, for lights with an area")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
     truth_app->add_flag("--transmittance", truth.transmittance, "Colour through semitransparent casters instead of visibility");
-    add_common(*truth_app, truth.common, false);
+    cli::add_common(*truth_app, truth.common, false);
 
     cli::Compare compare;
     CLI::App* compare_app = app.add_subcommand("compare", "Techniques beside the truth: pictures, error maps, times, memory");
-    add_picture(*compare_app, compare.picture);
+    cli::add_picture(*compare_app, compare.picture);
     compare_app
         ->add_option(
             "--techniques,--technique", compare.techniques, "Ids, with parameters after colons: shadow_map,shadow_map:map_size=2048:pcf=5")
@@ -233,36 +151,36 @@ int run(int argc, char** argv)
     compare_app->add_option("--repeats", compare.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    add_common(*compare_app, compare.common);
+    cli::add_common(*compare_app, compare.common);
 
     cli::Bench bench;
     CLI::App* bench_app = app.add_subcommand("bench", "Times, as ratios to Embree's and to a reference technique's in the same run");
     bench.picture.size = "1024x768";
     bench.picture.scene = "citadel";
-    add_picture(*bench_app, bench.picture);
+    cli::add_picture(*bench_app, bench.picture);
     bench_app->get_option("scene")->required(false);
     bench_app->add_option("--techniques", bench.techniques, "Ids with parameters (default: shadow_map)")->delimiter(',');
     bench_app->add_option("--reference", bench.reference, "Technique that all are divided by")->capture_default_str();
     bench_app->add_option("--repeats", bench.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(2, 10000))
         ->capture_default_str();
-    add_common(*bench_app, bench.common);
+    cli::add_common(*bench_app, bench.common);
 
     cli::Slice slice;
     CLI::App* slice_app
         = app.add_subcommand("slice", "The shadow value at every point of a plane through the scene, as if a receiver stood there");
-    add_slice(*slice_app, slice);
+    cli::add_slice(*slice_app, slice);
 
     cli::Figures figures;
     CLI::App* figures_app = app.add_subcommand("figures", "Pictures beside one another, and their page, from a figures file");
     figures_app->add_option("file", figures.file, "A figures file, as experiments/*/figures.json")->required();
     figures_app->add_option("-o,--output", figures.output, "Folder for the page and its pictures (default: the file's own)");
-    add_common(*figures_app, figures.common);
+    cli::add_common(*figures_app, figures.common);
 
     cli::Curves curves;
     CLI::App* curves_app = app.add_subcommand("curves", "Plots and tables of light maps' perspective error, from its equations");
     curves_app->add_option("-o,--output", curves.output, "Folder for them (default: experiments/sampling_error in the checkout)");
-    add_common(*curves_app, curves.common, false);
+    cli::add_common(*curves_app, curves.common, false);
 
     cli::Sweep sweep;
     cli::Merge merge;
@@ -292,13 +210,13 @@ int run(int argc, char** argv)
     for (const auto& [sub, options] : {std::pair{picture_app, &picture}, {bless_app, &bless}})
         sub->add_option("ids", options->ids, "Technique ids (default: all)");
     for (const auto& [sub, options] : {std::pair{new_app, &fresh}, {picture_app, &picture}, {docs_app, &docs}, {bless_app, &bless}})
-        add_common(*sub, options->common, sub != new_app && sub != docs_app);
+        cli::add_common(*sub, options->common, sub != new_app && sub != docs_app);
 
     cli::Convert convert;
     CLI::App* convert_app = app.add_subcommand("convert", "Turn a list of scenes with cameras and lights (scenes.json) into scene files");
     convert_app->add_option("list", convert.list, "The list")->required();
     convert_app->add_option("-o,--output", convert.output, "Folder for the scene files (default: out/scenes)");
-    add_common(*convert_app, convert.common, false);
+    cli::add_common(*convert_app, convert.common, false);
 
     try {
         app.parse(argc, argv);
@@ -308,18 +226,18 @@ int run(int argc, char** argv)
     }
     if (*list_app) return cli::list(list);
     if (*render_app) {
-        for (const std::string& item : technique_options(*render_app, render.technique)) render.parameters.push_back(item);
+        for (const std::string& item : cli::technique_options(*render_app, render.technique)) render.parameters.push_back(item);
         return cli::render(render);
     }
     if (*view_app) {
-        view.parameters = technique_options(*view_app, view.technique);
+        view.parameters = cli::technique_options(*view_app, view.technique);
         return cli::view(view);
     }
     if (*truth_app) return cli::truth(truth);
     if (*compare_app) return cli::compare(compare);
     if (*bench_app) return cli::bench(bench);
     if (*slice_app) {
-        slice.parameters = technique_options(*slice_app, slice.technique);
+        slice.parameters = cli::technique_options(*slice_app, slice.technique);
         return cli::slice(slice);
     }
     if (*figures_app) return cli::figures(figures);

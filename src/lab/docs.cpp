@@ -107,6 +107,7 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
     }
     update(root / "techniques" / "README.md", {{"techniques", overview_table()}});
     for (const fs::path& file : update_thumbnails(root, check)) changed.push_back(file);
+    for (const fs::path& file : update_result_pages(root, check)) changed.push_back(file);
     update(root / "README.md", {{"pictures", picture_grid(root)}});
     update(root / "docs" / "gallery.md", {{"gallery", gallery(root)}});
     return changed;

@@ -88,4 +88,8 @@ std::vector<std::filesystem::path> make_scene_pictures(gpu::Device&, const std::
 /// techniques/<id>/results.json (made by `gnomon picture`).
 std::vector<std::filesystem::path> update_docs(const std::filesystem::path& root, bool check);
 
+/// A part of it: pages, tables and plots of sweeps below experiments/results whose line file (results.jsonl) is there. Left alone are
+/// those whose experiment cannot be read here (its scenes are elsewhere) and whose runs are all of other parameters than today's.
+std::vector<std::filesystem::path> update_result_pages(const std::filesystem::path& root, bool check);
+
 } // namespace gnomon::lab

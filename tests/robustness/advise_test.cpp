@@ -133,7 +133,7 @@ TEST(Advise, InterruptedLeavesNoPartOfAFile)
     const Scratch scratch;
     const std::vector<std::string> words = advising({"plane", "contact"}, {"--budget", "1000x", "-o", "table.md"});
     RunOptions early;
-    early.signal = SIGINT;
+    early.kill_signal = SIGINT;
     early.kill_when
         = [begin = std::chrono::steady_clock::now()] { return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(300); };
     EXPECT_EQ(run_gnomon(words, scratch.folder(), early).signal, SIGINT);
@@ -141,7 +141,7 @@ TEST(Advise, InterruptedLeavesNoPartOfAFile)
 
     // the first scene's line is there, whole; that of the second never comes
     RunOptions between;
-    between.signal = SIGINT;
+    between.kill_signal = SIGINT;
     between.kill_when = [&] { return fs::exists(scratch / "table.md"); };
     EXPECT_EQ(run_gnomon(words, scratch.folder(), between).signal, SIGINT);
     EXPECT_EQ(files_in(scratch), std::vector<std::string>{"table.md"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "process.h"
+#include "sweep_files.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -7,9 +7,6 @@
 #include <algorithm>
 #include <fcntl.h>
 #include <fstream>
-#include <random>
-#include <set>
-#include <sstream>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -17,41 +14,6 @@ namespace gnomon::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-/// Six runs that take a moment each.
-Json small()
-{
-    return {{"scene", "balls"}, {"light", "sun,elevation=50,azimuth=35,angle=0"}, {"size", "64x48"},
-        {"axes", {{"kernel", {1, 3, 5}}, {"map_size", {64, 128}}}},
-        {"techniques", {{{"technique", "shadow_map"}, {"params", {{"pcf", "$kernel"}, {"map_size", "$map_size"}}}}}},
-        {"reference", {{"technique", "shadow_map"}, {"params", {{"pcf", 7}, {"map_size", "$map_size"}}}}},
-        {"metrics", {"mae", "filter_leak"}}, {"repeats", 1}, {"plots", {{{"x", "kernel"}, {"y", "mae"}, {"series", "map_size"}}}}};
-}
-
-std::string write(const Scratch& scratch, const Json& json, const std::string& name = "small.json")
-{
-    std::ofstream(scratch / name) << json.dump(1);
-    return name;
-}
-
-std::vector<std::string> lines_of(const fs::path& file)
-{
-    std::vector<std::string> lines;
-    std::istringstream in(read_whole(file));
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
-
-Json sweep(const Scratch& scratch, std::vector<std::string> more = {})
-{
-    std::vector<std::string> words = {"sweep", "small.json", "--json"};
-    if (std::find(more.begin(), more.end(), "-o") == more.end()) words.insert(words.end(), {"-o", "out"});
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished f = run_gnomon(words, scratch.folder());
-    EXPECT_EQ(f.code, 0) << f.err;
-    return Json::parse(f.out);
-}
 
 TEST(Sweep, MakesEveryRunOnceAndReportsThem)
 {
@@ -88,42 +50,6 @@ TEST(Sweep, MakesEveryRunOnceAndReportsThem)
     EXPECT_EQ(last.at("made"), 0);
     EXPECT_NE(last.at("notes").dump().find("6 results"), std::string::npos) << last;
     EXPECT_EQ(lines_of(scratch / "out/results.jsonl").size(), 8u);
-}
-
-TEST(Sweep, KilledAtAnyMomentItGoesOnAndLosesNothing)
-{
-    const Scratch scratch;
-    Json many = small();
-    many["axes"]["kernel"] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-    many["axes"]["map_size"] = {32, 64, 128, 256};
-    write(scratch, many);
-    const fs::path file = scratch / "out/results.jsonl";
-    std::mt19937 random(7);
-    std::vector<std::string> kept;
-    int kills = 0;
-    for (int attempt = 0; attempt < 60; ++attempt) {
-        const double limit = std::uniform_real_distribution<double>(0.05, 1.2)(random);
-        const auto begin = std::chrono::steady_clock::now();
-        const Finished f = run_gnomon({"sweep", "small.json", "-o", "out"}, scratch.folder(),
-            {.kill_when = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > limit; }});
-        std::vector<std::string> now = lines_of(file);
-        ASSERT_GE(now.size(), kept.size());
-        EXPECT_TRUE(std::equal(kept.begin(), kept.end(), now.begin())) << "a finished run was lost or repeated";
-        kills += f.signal != 0;
-        if (f.signal == 0) {
-            ASSERT_EQ(f.code, 0) << f.err;
-            break;
-        }
-        // what was killed in the midst of a line leaves a part of it
-        const std::string text = read_whole(file);
-        if (!text.empty() && text.back() != '\n') now.pop_back();
-        kept = now;
-    }
-    EXPECT_GT(kills, 2);
-    EXPECT_LE(sweep(scratch).at("made"), 36 - int(kept.size()));
-    std::set<std::string> keys;
-    for (const std::string& line : lines_of(file)) EXPECT_TRUE(keys.insert(Json::parse(line).at("key")).second) << "made twice";
-    EXPECT_EQ(keys.size(), 36u);
 }
 
 TEST(Sweep, ATornLastLineIsMadeAgain)
