@@ -37,7 +37,8 @@ struct Temporal {
     base::Picture map; ///< 1 channel: mean change at each pixel, over the frames in which it was followed
 };
 
-/// At least three frames. `fixed`: all are of one view, where a point whose position differs has moved and is left out.
+/// At least three frames. `fixed`: all are of one view, where a point whose position differs has moved and is left out. Otherwise only the
+/// camera moves: the truth at a point then stays, so that of the changes of e and of the test alone, the smaller is taken for d.
 Temporal measure_sequence(const std::vector<SequenceFrame>&, bool fixed);
 
 /// What `measure_sequence` adds to a run, for lists of metrics: their `measure` is null, since one picture has none of them.
