@@ -69,6 +69,9 @@ private:
             smaller.size = {side(size.width), side(size.height)};
             meter_->add(smaller);
         }
+        const std::string refused = shadow::refusal(*reference_.info, device_, stage.lights.front());
+        if (std::isfinite(budget_.times) && !refused.empty())
+            base::fail("a budget in times is held against a reference, and {}; name one that does with --reference", refused);
         out_.scene = stage.scene_name, out_.camera = stage.camera.name, out_.light = meter_->light_name(full);
         out_.size = options_.stage.size, out_.metric = options_.metric, out_.reference = options_.reference, out_.budget = options_.budget;
         out_.device = device_.info().name, out_.driver = device_.info().driver, out_.commit = commit();

@@ -75,7 +75,8 @@ std::vector<std::string> advice_reasons(const Advice& a)
     if (!a.chosen) return out;
     out.push_back(fmt::format("{} errs least{}: {}", choice_text(a.chosen->choice),
         a.budget.empty() ? "" : " of those within " + budget_text(a), cost(a, *a.chosen)));
-    if (a.chosen->choice.info->exact) out.push_back("its method is exact: only pixels on shadows' edges may differ");
+    const shadow::TechniqueInfo& info = *a.chosen->choice.info;
+    if (info.exact && (info.soft || !a.features.soft)) out.push_back("its method is exact: only pixels on shadows' edges may differ");
     add_limits(a, out);
     add_others(a, out);
     return out;

@@ -122,6 +122,8 @@ TEST(Advise, RefusesInASentence)
     EXPECT_NE(said({"plane", "--without", "pfc"}).find("pcf"), std::string::npos);
     EXPECT_NE(said({"plane", "--reference", "shadow_mop", "--budget", "2x"}).find("shadow_map"), std::string::npos);
     EXPECT_NE(said({"plane", "-o", "table.txt"}).find("no .md file"), std::string::npos);
+    EXPECT_NE(said({"plane", "--light", "disk,position=0/4/0,target=0/0/0,radius=1", "--budget", "2x"}).find("with --reference"),
+        std::string::npos);
     // nothing but rays is exact under a wide light
     const std::string none = said({"balls", "--light", "disk,position=0/4/0,target=0/0/0,radius=1", "--size", "64x36", "--prefer", "exact",
         "--without", "ray_traced"});

@@ -172,6 +172,11 @@ TEST(Reasons, NameWhatTheChoiceLacks)
     Advice soft = advice_of({measured("pcf", 0.02, 4)});
     soft.features.soft = true;
     EXPECT_TRUE(holds(soft, "it takes the light as a point, and yet nothing with penumbrae that keeps the budget errs less"));
+    Advice hard = advice_of({measured("alias_free", 0.02, 4)});
+    const std::string exact = "its method is exact: only pixels on shadows' edges may differ";
+    EXPECT_TRUE(holds(hard, exact));
+    hard.features.soft = true;
+    EXPECT_FALSE(holds(hard, exact)) << "exact for hard lights alone";
     Advice panes = advice_of({measured("pcf", 0.02, 4), measured("shadow_volumes:log_alpha=on", 0.01, 9, 0.5)});
     panes.features.see_through = 10;
     EXPECT_TRUE(holds(panes,
@@ -181,7 +186,7 @@ TEST(Reasons, NameWhatTheChoiceLacks)
     Advice glass = advice_of({measured("shadow_volumes:log_alpha=on", 0.01, 9)});
     glass.features.see_through = 10;
     for (const std::string& reason : advice_reasons(glass)) EXPECT_EQ(reason.find("it lets no light"), std::string::npos) << reason;
-    EXPECT_TRUE(holds(glass, "its method is exact: only pixels on shadows' edges may differ"));
+    EXPECT_TRUE(holds(glass, exact));
 }
 
 TEST(Reasons, NameTheNearestWhereNothingKeepsTheBudget)
