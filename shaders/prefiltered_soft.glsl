@@ -79,7 +79,9 @@ float unblocked(SoftPoint p)
     if (blocker.x <= 0.0) return 1.0;
 
     blocker_depth = clamp(p.depth + blocker.y * half_range, min(nearest, p.depth), p.depth);
-    half_width = min(c.prefiltered.kernel_scale * window_half_width(layer, p.light, p.depth, blocker_depth), widest);
+    half_width = window_half_width(layer, p.light, p.depth, blocker_depth);
+    estimate_penumbra(p, half_width);
+    half_width = min(c.prefiltered.kernel_scale * half_width, widest);
     vec2 range;
     const float known = decided(half_width, range);
     if (known >= 0.0) return known;

@@ -30,6 +30,17 @@ struct SoftPoint {
     Receiver receiver;
 };
 
+// For people to look at (shadow::Inspection): the output is the penumbra's estimated width instead, -1 where there is no estimate.
+layout(constant_id = 31) const bool inspect_penumbra = false;
+float penumbra = -1.0; // metres on a plane through the receiver across the layer's axis
+
+// The filter's window, half of it in texels. The light's image through a point at the blockers' depth is as wide on the receiver's side as
+// the window is in the map: both are the pyramid's cut there, seen from the light's centre.
+void estimate_penumbra(SoftPoint p, vec2 half_width)
+{
+    penumbra = 2.0 * max(half_width.x * p.texel.x, half_width.y * p.texel.y);
+}
+
 // The technique's, of one layer.
 SOFT_VISIBILITY soft_visibility(SoftPoint p);
 
@@ -55,15 +66,16 @@ SoftPoint soft_point(Receiver r, float horizon, int index)
 void main()
 {
     const Receiver r = load_receiver(c.soft.view, depth_image, normal_image, gl_FragCoord.xy);
-    visibility = SOFT_VISIBILITY(1.0);
+    visibility = SOFT_VISIBILITY(inspect_penumbra ? -1.0 : 1.0);
     if (r.background) return;
-    visibility = SOFT_VISIBILITY(0.0);
+    if (!inspect_penumbra) visibility = SOFT_VISIBILITY(0.0);
     const float horizon = light_reaches(c.soft.light, r.p_world) ? light_above_horizon(c.soft.light, r.p_world, r.n_geometric) : 0.0;
     if (horizon <= 0.0) return;
     const Layers layers
         = select_layers(c.soft.map.layout_kind, c.soft.map.centre, c.soft.map.axes, c.soft.map.splits, c.soft.map.bands, r.p_world);
     for (int i = 0; i < count_of(layers); ++i)
         visibility += share_of(layers, i) * soft_visibility(soft_point(r, horizon, layers.first + i));
+    if (inspect_penumbra) visibility = SOFT_VISIBILITY(penumbra);
 }
 
 #endif

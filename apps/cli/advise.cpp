@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace gnomon::cli {
 
 namespace {
@@ -42,8 +44,9 @@ int advise(const Advise& options)
             json.push_back(lab::advice_json(all.back()));
         else
             fmt::print("{}", lab::advice_text(all.back()));
-        // after each scene, since the next one may take an hour
-        if (!options.output.empty()) base::write_text(options.output, lab::advice_page(all));
+        // after each scene, since the next one may take an hour; where nothing was found yet, there is nothing to write
+        const bool found = std::any_of(all.begin(), all.end(), [](const lab::Advice& a) { return a.chosen.has_value(); });
+        if (found && !options.output.empty()) base::write_text(options.output, lab::advice_page(all));
     }
     demand_valid(*device);
     if (options.common.json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(1));

@@ -56,7 +56,7 @@ struct Compare {
     Common common;
     Picture picture;
     std::vector<std::string> techniques;
-    std::string output, reference;
+    std::string output, reference, motion;
     int truth_samples = 256, repeats = 3;
 };
 int compare(const Compare&);
@@ -86,8 +86,8 @@ int merge(const Merge&);
 
 struct Tune {
     Common common;
-    std::string technique, output, reference, minimise = "leak+acne", size = "320x180";
-    std::vector<std::string> scenes, validation, lights, under, vary;
+    std::string technique, output, reference, minimise = "leak+acne,mae", size = "320x180";
+    std::vector<std::string> scenes, validation, cameras, lights, under, vary;
     int budget = 100, seed = 1, truth_samples = 64;
 };
 int tune(const Tune&);
@@ -131,6 +131,7 @@ struct View {
     std::string technique = "shadow_map", against, state;
     std::vector<std::string> parameters; ///< name=value
     float exposure = 0, ambient = 0.45f; ///< stops; relative
+    double measure = 0; ///< seconds; 0: does not
 };
 int view(const View&);
 

@@ -23,6 +23,7 @@ int compare(const Compare& options)
             .reference = options.reference,
             .truth_samples = options.truth_samples,
             .repeats = options.repeats,
+            .motion = options.motion,
             .folder = folder});
     demand_valid(*device);
     if (options.common.json) {

@@ -39,13 +39,16 @@ void add_tune(CLI::App& app, cli::Tune& tune)
         ->allow_extra_args(false);
     app.add_option("--light", tune.lights, "A light for every scene, as elsewhere (default: each scene's first); may be repeated")
         ->allow_extra_args(false);
-    app.add_option("--minimise,--minimize", tune.minimise, "Metrics whose sum is to be small")->capture_default_str();
+    app.add_option("--camera", tune.cameras, "A camera for every scene, as elsewhere (default: each scene's first); may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--minimise,--minimize", tune.minimise, "Sums of metrics that are to be small, each as a part of what it was")
+        ->capture_default_str();
     app.add_option("--under", tune.under, "A bound, as time<2x (of the start's), bytes<64MiB, leak<0.001; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--reference", tune.reference, "The technique that filter metrics are measured against");
     app.add_option("--budget", tune.budget, "Evaluations, each on all scenes")->check(CLI::Range(1, 100000))->capture_default_str();
     app.add_option("--seed", tune.seed, "Another one searches elsewhere")->check(CLI::NonNegativeNumber)->capture_default_str();
-    app.add_option("--validate", tune.validation, "Scenes that the search does not see, for the preset's own table");
+    app.add_option("--validate", tune.validation, "Scene files that say \"validation\": true, which decide whether the preset is written");
     app.add_option("--size", tune.size, "Width and height in pixels")->capture_default_str();
     app.add_option("--truth-samples", tune.truth_samples, "Light samples a pixel of the truth")
         ->check(CLI::Range(1, 1 << 20))
@@ -137,6 +140,10 @@ int run(int argc, char** argv)
         ->required();
     compare_app->add_option("--reference", compare.reference,
         "A technique, with parameters after colons, that filtering is measured against: adds filter_mae and the like");
+    compare_app->add_option("--motion", compare.motion,
+        "Also measure how the error changes along a short sequence: camera,right=0.05 (metres a frame; up, forward; turn, tilt in "
+        "degrees), "
+        "light,azimuth=1, time,step=0.0333 or still; frames=8. Adds flicker, swimming and popping");
     compare_app->add_option("-o,--output", compare.output, "Folder for the page, pictures and results (default: out/compare-SCENE)");
     compare_app->add_option("--truth-samples", compare.truth_samples, "Light samples a pixel of the truth")
         ->check(CLI::Range(1, 1 << 20))

@@ -81,6 +81,8 @@ void add_view(CLI::App& app, View& view)
     app.add_option("--technique", view.technique, "Technique, by its id")->capture_default_str();
     app.add_option("--against", view.against, "What is shown on the right: truth, or a technique with parameters after colons");
     app.add_option("--state", view.state, "A JSON file that always says what the window shows and where its widgets are");
+    app.add_option("--measure", view.measure, "Go around the camera's target in so many seconds, print pictures a second, and end")
+        ->check(CLI::Range(0.1, 600.0));
     add_look(app, view.exposure, view.ambient);
     app.allow_extras();
     add_common(app, view.common);

@@ -10,18 +10,19 @@ namespace gnomon::cli {
 
 namespace {
 
-/// Every scene with every light, a place each.
+/// Every scene with every camera and light, a place each.
 std::vector<lab::StageOptions> places(const Tune& options, const std::vector<std::string>& scenes)
 {
     std::vector<lab::StageOptions> out;
     for (const std::string& scene : scenes) {
         Picture picture;
         picture.scene = scene, picture.size = options.size;
-        if (options.lights.empty()) out.push_back(stage_options(picture));
-        for (const std::string& light : options.lights) {
-            picture.lights = {light};
-            out.push_back(stage_options(picture));
-        }
+        for (const std::string& camera : options.cameras.empty() ? std::vector<std::string>{""} : options.cameras)
+            for (const std::string& light : options.lights.empty() ? std::vector<std::string>{""} : options.lights) {
+                picture.camera = camera;
+                if (!light.empty()) picture.lights = {light};
+                out.push_back(stage_options(picture));
+            }
     }
     return out;
 }
@@ -46,11 +47,11 @@ int tune(const Tune& options)
     demand_valid(*device);
     if (options.common.json) {
         fmt::print("{}\n", lab::preset_json(tuned.preset).dump(1));
-        return 0;
+        return tuned.written ? 0 : 1;
     }
-    fmt::print(
-        "{}{} runs were made now, {} kept from before; use it as @{}\n", lab::tune_text(tuned), tuned.measured, tuned.kept, options.output);
-    return 0;
+    fmt::print("{}{} runs were made now, {} kept from before{}\n", lab::tune_text(tuned), tuned.measured, tuned.kept,
+        tuned.written ? "; use it as @" + options.output : "");
+    return tuned.written ? 0 : 1;
 }
 
 } // namespace gnomon::cli

@@ -19,7 +19,9 @@ int view(const View& options)
         .validation = options.common.validation,
         .exposure = options.exposure,
         .ambient = options.ambient,
-        .state = options.state});
+        .state = options.state,
+        .measure = options.measure,
+        .json = options.common.json});
 }
 #else
 int view(const View&)

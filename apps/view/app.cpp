@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "controls.h"
+#include "pace.h"
 #include "panels.h"
 #include "session.h"
 #include "swapchain.h"
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace gnomon::view {
 
@@ -70,15 +73,55 @@ public:
             frame();
             window_.wait(0); // so that the state is not called idle while there are events
             notice();
-            write_state(frames_due_ <= 0 && !viewport_.moving());
+            write_state(frames_due_ <= 0 && !viewport_.moving() && !panels_.playing);
         }
+        return finish();
+    }
+
+    /// Goes around the target as a drag of the mouse would, at full size and then as a window without --measure would.
+    int measure()
+    {
+        std::vector<Pace> paces;
+        const scene::Camera start = session_.stage().camera;
+        for (const bool coarse : {false, true}) {
+            session_.coarse_while_moving = coarse;
+            paces.push_back(go_around(start, coarse ? "coarser while moving, where slow" : "full size"));
+        }
+        fmt::print("{}", options_.json ? paces_json(paces, options_).dump(2) + "\n" : paces_text(paces, options_));
+        return finish();
+    }
+
+private:
+    int finish()
+    {
         swapchain_.wait();
         const auto& errors = device_->validation_errors();
         if (!errors.empty()) base::fail("the validation layers found {} errors, the first: {}", errors.size(), errors.front());
         return 0;
     }
 
-private:
+    Pace go_around(const scene::Camera& start, const char* name)
+    {
+        Pace pace{name};
+        constexpr int warm = 5; // pipelines, and a first estimate of how long pictures take
+        auto begin = Clock::now(), last = begin;
+        for (int i = -warm; !window_.closing(); ++i) {
+            window_.wait(0);
+            if (window_.pixels().area() == 0) base::fail("the window was minimised, so that nothing was drawn to measure; leave it open");
+            if (i == 0) begin = last = Clock::now();
+            const double part = std::chrono::duration<double>(last - begin).count() / options_.measure;
+            if (i >= 0 && part >= 1.0) break;
+            driven_ = true;
+            session_.attempt([&] { session_.camera(orbit(start, {i < 0 ? 0.0f : float(part) * 2.0f * pi, 0.0f})); });
+            frame();
+            const auto now = Clock::now();
+            if (i >= 0) pace.add(std::chrono::duration<double, std::milli>(now - last).count(), session_);
+            last = now;
+        }
+        driven_ = false;
+        return pace;
+    }
+
     /// Dear ImGui answers an event one or two frames later: a button is drawn pressed, then does what it does.
     static constexpr int settle = 3;
 
@@ -92,6 +135,7 @@ private:
     void notice()
     {
         if (window_.events() != events_) events_ = window_.events(), frames_due_ = settle;
+        if (panels_.playing) frames_due_ = std::max(frames_due_, 1);
         if (session_.truth_moved()) frames_due_ = std::max(frames_due_, 1);
         for (const std::string& file : window_.dropped()) session_.attempt([&] { session_.open(file); });
     }
@@ -110,11 +154,28 @@ private:
         viewport_.input(panels_, session_, window_.pressed(), seconds);
         ImGui::Render();
         window_.typing(ImGui::GetIO().WantTextInput);
-        session_.attempt([&] { session_.update(viewport_.moving()); });
+        if (panels_.playing) play(seconds);
+        session_.attempt([&] { session_.update(panels_.playing || driven_ || viewport_.moving()); });
         if (viewport_.flying()) frames_due_ = std::max(frames_due_, 1);
         if (!swapchain_.present(window_.pixels(), [&](gpu::PassList& passes, gpu::ImageId target) { draw_ui(passes, target); }))
             frames_due_ = std::max(frames_due_, 1);
         serve();
+    }
+
+    /// By the clock; where loading is slow, in larger steps.
+    void play(double seconds)
+    {
+        const double duration = session_.duration();
+        if (!(duration > 0)) {
+            panels_.playing = false;
+            return;
+        }
+        const double time = session_.time() + std::min(seconds, 0.5 * duration);
+        session_.attempt([&] {
+            panels_.playing = false; // where it throws
+            session_.time(time - std::floor(time / duration) * duration);
+            panels_.playing = true;
+        });
     }
 
     void draw_ui(gpu::PassList& passes, gpu::ImageId target)
@@ -157,6 +218,12 @@ private:
         session_.say("wrote " + file.string());
     }
 
+    std::string inspected() const
+    {
+        const Overlays::Offer* offer = session_.picture().overlays().offered();
+        return offer ? offer->name : std::string();
+    }
+
     void write_state(bool idle)
     {
         if (options_.state.empty()) return;
@@ -165,9 +232,10 @@ private:
             {"lights", session_.light_words()}, {"show", show_names()[session_.look.show]}, {"split", session_.look.split},
             {"against", int(session_.against)}, {"truth_samples", session_.truth_samples()}, {"truth_finished", session_.truth_finished()},
             {"message", session_.message.text}, {"error", session_.standing_error()}, {"draw_ms", session_.draw_ms}, {"frames", frames_},
-            {"coarse", session_.coarse()}, {"help", panels_.help}, {"command", session_.command()},
-            {"window", {swapchain_.size().width, swapchain_.size().height}}, {"picture", {int(r[0]), int(r[1]), int(r[2]), int(r[3])}},
-            {"idle", idle}, {"places", panels_.places}, {"times", session_.times}};
+            {"coarse", session_.coarse()}, {"time", session_.time()}, {"duration", session_.duration()}, {"inspected", inspected()},
+            {"help", panels_.help}, {"command", session_.command()}, {"window", {swapchain_.size().width, swapchain_.size().height}},
+            {"picture", {int(r[0]), int(r[1]), int(r[2]), int(r[3])}}, {"idle", idle}, {"places", panels_.places},
+            {"times", session_.times}};
         session_.attempt([&] { base::write_text(options_.state, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace)); });
     }
 
@@ -182,6 +250,7 @@ private:
     Viewport viewport_;
     uint64_t events_ = 0, frames_ = 0;
     int frames_due_ = settle;
+    bool driven_ = false; ///< by `measure`
     Clock::time_point last_ = Clock::now();
 };
 
@@ -190,7 +259,7 @@ private:
 int run(const Options& options)
 {
     App app(options);
-    return app.run();
+    return options.measure > 0 ? app.measure() : app.run();
 }
 
 } // namespace gnomon::view

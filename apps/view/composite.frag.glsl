@@ -17,6 +17,8 @@ layout(set = 0, binding = 8) uniform usampler2D primitive_image;
 layout(set = 0, binding = 9) uniform sampler2D footprint_image;
 layout(set = 0, binding = 10) uniform sampler2D layers_image;
 layout(set = 0, binding = 11) uniform usampler2D truth_primitive;
+layout(set = 0, binding = 12) uniform sampler2D volumes_image;
+layout(set = 0, binding = 13) uniform sampler2D inspect_image;
 layout(set = 1, binding = 0, scalar) uniform Constants { CompositeConstants c; };
 
 layout(location = 0) out vec4 color;
@@ -111,6 +113,14 @@ void main()
     if (c.layers != 0) {
         const vec4 tint = texelFetch(layers_image, pixel, 0);
         shown = mix(shown, tint.rgb, 0.35 * tint.a);
+    }
+    if (c.inspect != 0 && !other) {
+        const vec4 tint = texelFetch(inspect_image, pixel, 0);
+        shown = mix(shown, tint.rgb, tint.a);
+    }
+    if (c.volumes != 0) {
+        const vec4 line = texelFetch(volumes_image, pixel, 0); // times its coverage
+        shown = shown * (1.0 - line.a) + line.rgb;
     }
     if (c.wireframe != 0 && edge_of_triangle(pixel)) shown = mix(shown, vec3(0.1, 0.9, 0.4), 0.6);
     color = vec4(clamp(shown, 0.0, 1.0), 1.0);

@@ -35,8 +35,19 @@ struct CompositeConstants {
     float range; ///< of the error map
     float farthest; ///< metres: depth is shown up to there
     float extent; ///< metres: largest coordinate
-    uint wireframe, layers; ///< 0 or 1
+    uint wireframe, layers, volumes, inspect; ///< 0 or 1
     uint left_colored, right_colored; ///< 1: the visibility has three channels
+};
+
+#define INSPECT_COLORS 6
+
+/// For an image that a technique offers for inspection.
+struct InspectConstants {
+    View view;
+    uint label; ///< 1: whole numbers, a colour each; 0: a quantity
+    uint in_pixels; ///< 1: metres are divided by a pixel's width at the surface
+    float most; ///< where the colours end
+    vec3 colors[INSPECT_COLORS];
 };
 
 /// For the passes that read the technique's map.

@@ -113,4 +113,27 @@ scene::Light drag_light(scene::Light light, const scene::Camera& camera, vec2 pi
     return light;
 }
 
+scene::Light resize_light(scene::Light light, float pixels, float unit)
+{
+    // about linear below `small`, so that 0 is left and found again
+    const auto resized
+        = [&](float size, float small, float most) { return std::clamp((size + small) * std::exp(0.01f * pixels) - small, 0.0f, most); };
+    const float most = 1000.0f * unit, least = 0.1f * unit; // panels have an area
+    if (auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
+        sun->angular_radius = resized(sun->angular_radius, glm::radians(0.1f), glm::radians(15.0f));
+    } else if (auto* spot = std::get_if<scene::SpotLight>(&light.shape)) {
+        spot->radius = resized(spot->radius, unit, most);
+    } else if (auto* point = std::get_if<scene::PointLight>(&light.shape)) {
+        point->radius = resized(point->radius, unit, most);
+    } else if (auto* disk = std::get_if<scene::DiskLight>(&light.shape)) {
+        disk->radius = std::max(resized(disk->radius, unit, most), least);
+    } else {
+        auto& rect = std::get<scene::RectLight>(light.shape);
+        const float length = std::max(glm::length(rect.half_u), glm::length(rect.half_v));
+        const float scale = std::max(resized(length, unit, most), least) / length;
+        rect.half_u *= scale, rect.half_v *= scale;
+    }
+    return light;
+}
+
 } // namespace gnomon::view

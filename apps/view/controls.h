@@ -16,4 +16,8 @@ scene::Camera fly(scene::Camera, vec3 metres); ///< both: right, up, forward
 /// Turns a directional light; moves all others across the view, or along it.
 scene::Light drag_light(scene::Light, const scene::Camera&, vec2 pixels, float picture_height, bool along);
 
+/// Makes it larger (pixels > 0) or smaller, by a factor for each pixel, and from a point to something at all. `unit`: metres that are small
+/// in the scene.
+scene::Light resize_light(scene::Light, float pixels, float unit);
+
 } // namespace gnomon::view

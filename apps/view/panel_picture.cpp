@@ -52,35 +52,51 @@ void size_combo(Panels& panels, Session& session)
     panels.mark("size");
 }
 
-void light_size(Session& session, size_t index)
+/// Of scenes that move. The scene is loaded anew for each moment.
+void time_slider(Panels& panels, Session& session)
 {
-    scene::Light light = session.stage().lights[index];
-    const float most = std::max(0.25f * session.stage().bounds.radius(), 1e-3f);
-    bool changed = false;
-    const auto slider = [&](const char* label, float& value, float low, float high, const char* format) {
-        changed |= ImGui::SliderFloat(label, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+    if (!(session.duration() > 0)) return;
+    float seconds = float(session.time());
+    if (ImGui::SliderFloat("time", &seconds, 0, float(session.duration()), "%.2f s", ImGuiSliderFlags_AlwaysClamp))
+        session.attempt([&] { session.time(double(seconds)); });
+    panels.mark("time");
+    ImGui::SameLine();
+    if (ImGui::SmallButton(panels.playing ? "stop" : "play")) panels.playing = !panels.playing;
+    panels.mark("play");
+}
+
+void overlay_section(Panels& panels, Session& session)
+{
+    OverlayWish& o = session.overlays;
+    const auto flag = [&](const char* name, bool& on) {
+        ImGui::Checkbox(name, &on);
+        panels.mark(name);
     };
-    if (auto* sun = std::get_if<scene::DirectionalLight>(&light.shape)) {
-        float degrees = glm::degrees(2.0f * sun->angular_radius);
-        slider("angle", degrees, 0, 30, "%.3g degrees");
-        if (changed) sun->angular_radius = 0.5f * glm::radians(degrees);
-    } else if (auto* spot = std::get_if<scene::SpotLight>(&light.shape)) {
-        float cone = glm::degrees(2.0f * spot->outer_angle);
-        slider("radius", spot->radius, 0, most, "%.3g m");
-        slider("cone", cone, 1, 170, "%.3g degrees");
-        if (changed) spot->outer_angle = 0.5f * glm::radians(cone), spot->inner_angle = std::min(spot->inner_angle, spot->outer_angle);
-    } else if (auto* point = std::get_if<scene::PointLight>(&light.shape)) {
-        slider("radius", point->radius, 0, most, "%.3g m");
-    } else if (auto* disk = std::get_if<scene::DiskLight>(&light.shape)) {
-        slider("radius", disk->radius, 0.001f * most, most, "%.3g m");
-    } else {
-        auto& rect = std::get<scene::RectLight>(light.shape);
-        float width = 2 * glm::length(rect.half_u), height = 2 * glm::length(rect.half_v);
-        slider("width", width, 0.002f * most, 2 * most, "%.3g m");
-        slider("height", height, 0.002f * most, 2 * most, "%.3g m");
-        if (changed) rect.half_u = 0.5f * width * glm::normalize(rect.half_u), rect.half_v = 0.5f * height * glm::normalize(rect.half_v);
-    }
-    if (changed) session.attempt([&] { session.light(index, light); });
+    flag("wireframe", session.look.wireframe);
+    ImGui::SameLine();
+    flag("map layers", o.layers);
+    ImGui::SameLine();
+    flag("map", o.insets);
+    flag("volumes", o.volumes);
+    if (ImGui::IsItemHovered())
+        tooltip("Silhouettes as the light's centre sees them, yellow, and the sides of the shadow volumes from there on, blue; faint "
+                "behind surfaces.");
+    ImGui::SameLine();
+    bool on = o.inspect >= 0;
+    if (ImGui::Checkbox("inspect", &on)) o.inspect = on ? 0 : -1;
+    panels.mark("inspect");
+    if (ImGui::IsItemHovered())
+        tooltip("What the technique found on its way: the penumbra's estimated width, pages and levels of a virtual map.");
+    const auto& offers = session.picture().overlays().offers();
+    if (o.inspect < 0 || offers.empty()) return;
+    std::vector<std::string> names;
+    for (const Overlays::Offer& offer : offers) names.push_back(offer.name);
+    o.inspect = std::min(o.inspect, int(names.size()) - 1);
+    combo("image", o.inspect, names);
+    panels.mark("image");
+    if (offers[size_t(o.inspect)].label) return;
+    flag("in pixels", o.in_pixels);
+    ImGui::SliderFloat("colours, octaves", &o.scale, -6, 6, "%+.1f", ImGuiSliderFlags_AlwaysClamp);
 }
 
 /// True where Enter was pressed.
@@ -101,32 +117,8 @@ void picture_section(Panels& panels, Session& session)
         ImGui::SliderFloat("full colour at", &session.look.range, 0.01f, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
         ImGui::TextDisabled("red: left is too light, blue: too dark");
     }
-    ImGui::Checkbox("wireframe", &session.look.wireframe);
-    panels.mark("wireframe");
-    ImGui::SameLine();
-    ImGui::Checkbox("map layers", &session.look.layers);
-    panels.mark("map layers");
-    ImGui::SameLine();
-    ImGui::Checkbox("map", &session.insets);
-    panels.mark("map");
+    overlay_section(panels, session);
     ImGui::Checkbox("coarser while moving, where slow", &session.coarse_while_moving);
-}
-
-void light_section(Panels& panels, Session& session)
-{
-    for (size_t i = 0; i < session.stage().lights.size(); ++i) {
-        ImGui::PushID(int(i));
-        std::vector<std::string> names = {"directional", "spot", "point", "rect", "disk"};
-        for (const scene::Light& l : session.stage().scene.lights) names.push_back(l.name);
-        int index = int(session.stage().lights[i].kind());
-        if (combo("kind", index, names)) session.attempt([&] { session.light(i, names[size_t(index)]); });
-        panels.mark(i == 0 ? "light kind" : fmt::format("light kind {}", i + 1));
-        light_size(session, i);
-        if (ImGui::IsItemVisible()) panels.mark(i == 0 ? "light size" : fmt::format("light size {}", i + 1));
-        ImGui::TextDisabled("%s", session.light_words()[i].substr(0, session.light_words()[i].find(',')).c_str());
-        if (ImGui::IsItemHovered()) tooltip(session.light_words()[i]);
-        ImGui::PopID();
-    }
 }
 
 void camera_section(Panels& panels, Session& session)
@@ -143,6 +135,7 @@ void camera_section(Panels& panels, Session& session)
             session.attempt([&] { session.camera(camera); });
         }
     }
+    time_slider(panels, session);
     std::vector<std::string> scenes;
     for (const scene::Builtin& b : scene::builtins()) scenes.emplace_back(b.name);
     int chosen = int(std::find(scenes.begin(), scenes.end(), session.scene_name()) - scenes.begin());

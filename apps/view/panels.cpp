@@ -115,7 +115,9 @@ void draw_help(Panels& panels)
         {"W A S D, Q E", "fly; with shift ten times as fast"},
         {"L + left drag", "turn the sun, or move the light across the view (with shift: along it)"}, {"drag the line", "move the split"},
         {"T", "split: truth on the right, or nothing"}, {"X", "error map"}, {"V", "visibility"},
-        {"Page up, Page down", "previous, next technique"}, {"G, K, M", "wireframe, layers of the light map, the map itself"},
+        {"Page up, Page down", "previous, next technique"}, {"L + right drag", "the light's size"},
+        {"G, K, M", "wireframe, layers of the light map, the map itself"},
+        {"B, N", "shadow volumes; what the technique offers: penumbra, pages"}, {"Space", "play the scene's animation"},
         {"Home", "the scene's first camera"}, {"P, O", "screenshot of the picture, of the window"},
         {"C", "copy the command line that renders this view"}, {"R", "recompile changed shaders"}, {"F9", "load the scene again"},
         {"Tab", "hide the panel"}, {"Esc", "close this, or the message"}, {"Ctrl + Q", "quit"}};

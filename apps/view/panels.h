@@ -15,6 +15,7 @@ inline constexpr int panel_width = 372; // pixels
 /// What the panels keep, and what they ask of the window.
 struct Panels {
     bool hidden = false, help = false, follow_window = false;
+    bool playing = false; ///< the scene's animation
     bool screenshot = false, window_screenshot = false, copy = false, reload = false, quit = false; ///< asked for; the loop resets them
     std::string screenshot_file, preset_file = "out/preset.json", scene_file;
     std::map<std::string, int> pending; ///< whole numbers while their slider is held: each would be another pipeline

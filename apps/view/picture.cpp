@@ -20,8 +20,6 @@ const std::vector<std::string>& show_names()
 
 namespace {
 
-constexpr base::Size insets_size{4 * 192, 2 * 192}; // of side.cpp's cells: eight layers at most
-
 /// Greatest distance along the view to the scene's bounds.
 float farthest(const lab::Stage& stage)
 {
@@ -42,13 +40,12 @@ Picture::Picture(gpu::Device& device, shadow::SceneGpu& scene)
     : device_(device)
     , scene_(scene)
 {
-    fit_image(device, insets_, VK_FORMAT_R8G8B8A8_UNORM, insets_size, "insets");
     fit_image(device, dummy_, VK_FORMAT_R32_SFLOAT, {1, 1}, "nothing");
     fit_image(device, dummy_ids_, VK_FORMAT_R32_UINT, {1, 1}, "nothing");
     gpu::PassList passes(device);
-    for (gpu::Image* image : {&insets_, &dummy_, &dummy_ids_}) passes.clear(passes.import(*image), {});
+    for (gpu::Image* image : {&dummy_, &dummy_ids_}) passes.clear(passes.import(*image), {});
     device.submit(std::move(passes));
-    overlays_.insets_image = &insets_;
+    overlays_.begin(device, {});
 }
 
 void Picture::draw_again()
@@ -71,12 +68,11 @@ bool Picture::draw(const Wish& wish)
         receivers_key_ = view;
     }
     const std::string common = view + lights_key(wish.stage) + fmt::format(" {}", wish.ambient);
-    overlays_.footprint = wish.footprint, overlays_.layers = wish.layers, overlays_.insets = wish.insets;
-    const bool drawn = left_.draw(device_, scene_, receivers_, wish.stage, wish.left, wish.ambient,
-        fmt::format("{} {} {} {} {}", common, lab::choice_text(wish.left), wish.footprint, wish.layers, wish.insets), &overlays_);
-    if (left_.error.empty() && overlays_.layer_count == 0 && (wish.footprint || wish.layers || wish.insets))
-        left_.error = fmt::format(
-            "{} looks its shadows up in no light map that could be shown; choose another picture or overlay", wish.left.info->id);
+    const std::string own = common + lab::choice_text(wish.left) + wish.overlays.key();
+    if (own != overlays_key_) overlays_.begin(device_, wish.overlays);
+    overlays_key_ = own;
+    const bool drawn = left_.draw(device_, scene_, receivers_, wish.stage, wish.left, wish.ambient, own, &overlays_);
+    if (left_.error.empty()) left_.error = overlays_.missing(wish.left.info->id);
     if (wish.right)
         right_.draw(
             device_, scene_, receivers_, wish.stage, *wish.right, wish.ambient, common + " " + lab::choice_text(*wish.right), nullptr);
@@ -120,10 +116,13 @@ void Picture::compose(const Wish& wish, const Look& look)
     c.exposure = pi / shadow::reference_irradiance(wish.stage.lights, wish.stage.bounds) * std::exp2(look.exposure) * 1.25f;
     c.range = look.range, c.farthest = farthest(wish.stage);
     c.extent = glm::max(glm::length(wish.stage.bounds.min), glm::length(wish.stage.bounds.max));
-    const auto& map_image = [&](gpu::Image& image) -> gpu::Image& {
-        return image && image.desc().size == wish.stage.view.size && overlays_.layer_count != 0 ? image : dummy_;
+    const auto& overlay = [&](gpu::Image& image) -> gpu::Image& {
+        return image && image.desc().size == wish.stage.view.size && left_.error.empty() ? image : dummy_;
     };
-    c.wireframe = look.wireframe, c.layers = look.layers && &map_image(overlays_.layers_image) != &dummy_;
+    const auto there = [&](bool wanted, gpu::Image& image) { return wanted && &overlay(image) != &dummy_ ? 1u : 0u; };
+    c.wireframe = look.wireframe, c.layers = there(wish.overlays.layers, overlays_.layers_image);
+    c.volumes = there(wish.overlays.volumes, overlays_.volumes_image);
+    c.inspect = there(overlays_.offered() != nullptr, overlays_.inspect_image);
     c.left_colored = !left_.visibility.empty() && colored(left_.visibility.front());
     c.right_colored = !right_.visibility.empty() && colored(right_.visibility.front());
     passes.fullscreen({.name = "composite",
@@ -133,12 +132,14 @@ void Picture::compose(const Wish& wish, const Look& look)
             {left ? first(left_) : passes.import(dummy_), gpu::Use::sample},
             {right >= RIGHT_TECHNIQUE ? first(right_) : passes.import(dummy_), gpu::Use::sample}, {g.depth, gpu::Use::sample},
             {g.normal, gpu::Use::sample}, {g.albedo, gpu::Use::sample}, {g.surface, gpu::Use::sample}, {g.primitive, gpu::Use::sample},
-            {passes.import(map_image(overlays_.footprint_image)), gpu::Use::sample},
-            {passes.import(map_image(overlays_.layers_image)), gpu::Use::sample},
-            {passes.import(right == RIGHT_TRUTH && truth_primitive_ ? truth_primitive_ : dummy_ids_), gpu::Use::sample}},
+            {passes.import(overlay(overlays_.footprint_image)), gpu::Use::sample},
+            {passes.import(overlay(overlays_.layers_image)), gpu::Use::sample},
+            {passes.import(right == RIGHT_TRUTH && truth_primitive_ ? truth_primitive_ : dummy_ids_), gpu::Use::sample},
+            {passes.import(overlay(overlays_.volumes_image)), gpu::Use::sample},
+            {passes.import(overlay(overlays_.inspect_image)), gpu::Use::sample}},
         .constants = c,
         .colors = {{passes.import(canvas_), gpu::Load::discard}}});
-    device_.submit(std::move(passes));
+    compose_times_ = device_.submit(std::move(passes)).times;
 }
 
 base::Picture Picture::radiance()

@@ -18,7 +18,7 @@ struct Wish {
     const TruthWorker::Result* truth = nullptr; ///< where the right side is the truth: what there is of it
     bool against_truth = false;
     float ambient = 0.45f;
-    bool footprint = false, layers = false, insets = false; ///< of the left side's map
+    OverlayWish overlays{}; ///< of the left side
 };
 
 /// How they are shown.
@@ -27,7 +27,7 @@ struct Look {
     float split = 0.5f; ///< of the width
     float exposure = 0; ///< stops
     float range = 1;
-    bool wireframe = false, layers = false;
+    bool wireframe = false;
 };
 
 /// The two sides of the window's picture, drawn anew only where what they depend on has changed.
@@ -41,11 +41,12 @@ public:
     void forget(); ///< draw all of it again, with new techniques
 
     gpu::Image& canvas() { return canvas_; }
-    gpu::Image& insets() { return insets_; }
+    gpu::Image& insets() { return overlays_.insets_image; }
+    const Overlays& overlays() const { return overlays_; }
     const Side& left() const { return left_; }
     const Side& right() const { return right_; }
     const std::vector<gpu::PassTime>& receiver_times() const { return receiver_times_; }
-    uint32_t map_layers() const { return overlays_.layer_count; } ///< of the left side's map, where it was asked for
+    const std::vector<gpu::PassTime>& compose_times() const { return compose_times_; }
     base::Picture radiance(); ///< the left side's, RGB
     base::Picture shown(); ///< the canvas, RGB, encoded for the screen
 
@@ -58,10 +59,10 @@ private:
     shadow::SceneGpu& scene_;
     Receivers receivers_;
     Side left_, right_;
-    std::string receivers_key_;
-    std::vector<gpu::PassTime> receiver_times_;
-    MapOverlays overlays_;
-    gpu::Image canvas_, insets_, dummy_, dummy_ids_, truth_primitive_;
+    std::string receivers_key_, overlays_key_;
+    std::vector<gpu::PassTime> receiver_times_, compose_times_;
+    Overlays overlays_;
+    gpu::Image canvas_, dummy_, dummy_ids_, truth_primitive_;
 };
 
 } // namespace gnomon::view

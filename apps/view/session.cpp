@@ -2,6 +2,7 @@
 #include "session.h"
 
 #include "base/error.h"
+#include "scene/animation.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,8 @@ namespace gnomon::view {
 
 namespace {
 
-constexpr double slow = 100; // ms: slower pictures are drawn coarser while something moves
+constexpr double slow
+    = 80; // ms: slower pictures are drawn coarser while something moves; with the panel, the window then keeps 10 a second
 
 constexpr double patient = 4000; // ms: a first picture that took longer is not drawn twice for its times
 
@@ -55,7 +57,7 @@ void Session::attempt(const std::function<void()>& action)
     }
 }
 
-void Session::load(const lab::StageOptions& options)
+void Session::load(const lab::StageOptions& options, bool same_file)
 {
     auto loaded = std::make_unique<Loaded>();
     loaded->stage = lab::open_stage(options);
@@ -69,10 +71,11 @@ void Session::load(const lab::StageOptions& options)
                                                     : light_origin(stage.lights[i], stage.scene.lights, stage.bounds));
     std::vector<std::string> lights;
     for (size_t i = 0; i < stage.lights.size(); ++i) lights.push_back(light_text(stage.lights[i], origins[i]));
+    const double duration = same_file ? duration_ : scene::animation_seconds(options.scene);
     // Nothing has thrown: the new scene takes the old one's place.
     truth_.reset(), truth_key_.clear();
     loaded_ = std::move(loaded);
-    options_ = options;
+    options_ = options, duration_ = duration;
     origins_ = std::move(origins), lights_ = std::move(lights);
     camera_ = camera_text(loaded_->stage.camera);
     if (!loaded_->stage.scene.warnings.empty()) message = {loaded_->stage.scene.warnings.front(), false};
@@ -84,7 +87,16 @@ void Session::open(const std::string& scene)
 {
     lab::StageOptions options = options_;
     options.scene = scene, options.camera.clear(), options.lights.clear(), options.kinds = left.info->lights, options.size = size_;
+    if (options_.scene != scene) options.load.time = 0;
     load(options);
+}
+
+void Session::time(double seconds)
+{
+    if (seconds == options_.load.time) return;
+    lab::StageOptions options = options_;
+    options.load.time = seconds, options.camera = camera_, options.lights = lights_, options.size = size_;
+    load(options, true);
 }
 
 void Session::technique(const std::string& id)
@@ -134,6 +146,12 @@ void Session::size(base::Size wanted)
 
 void Session::reset_parameters() { left.params = shadow::ParamValues(left.info->params()); }
 
+void Session::inspect_next()
+{
+    const int offers = int(picture().overlays().offers().size());
+    overlays.inspect = overlays.inspect < 0 ? 0 : overlays.inspect + 1 < offers ? overlays.inspect + 1 : -1;
+}
+
 void Session::aim(base::Size size)
 {
     lab::Stage& stage = loaded_->stage;
@@ -143,16 +161,15 @@ void Session::aim(base::Size size)
 Wish Session::wish() const
 {
     const bool map = left.info->output == shadow::Output::visibility || left.info->output == shadow::Output::transmittance;
-    const bool footprint = map && look.show >= 10;
+    OverlayWish wanted = overlays;
+    wanted.footprint = map && look.show >= 10;
     return {.stage = loaded_->stage,
         .left = left,
         .right = against == Against::technique ? &right : nullptr,
         .truth = truth_.get(),
         .against_truth = against == Against::truth,
         .ambient = ambient,
-        .footprint = footprint,
-        .layers = look.layers,
-        .insets = insets};
+        .overlays = wanted};
 }
 
 bool Session::wants_coarse(bool moving) const { return moving && coarse_while_moving && full_ms_ > slow && size_.area() > 128 * 128; }
@@ -184,7 +201,7 @@ void Session::add_times(double ms)
     std::map<std::string, double> sums; // passes of one name are one line
     const auto add = [&](const std::vector<gpu::PassTime>& list) {
         for (const gpu::PassTime& t : list) {
-            if (t.name.starts_with("keep ") || t.name.starts_with("overlay ")) continue;
+            if (t.name.starts_with("keep ") || t.name.starts_with("overlay/") || t.name.find("/inspect ") != std::string::npos) continue;
             if (!times.count(t.name) && !sums.count(t.name)) time_order.push_back(t.name);
             sums[t.name] += t.ms;
         }
@@ -212,6 +229,7 @@ void Session::update(bool moving)
     const bool drawn = picture().draw(wanted);
     picture().compose(wanted, look);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    drawn_ms = ms;
     if (!drawn || was_coarse != coarse_) return;
     add_times(ms);
     if (!coarse_) full_ms_ = ms;

@@ -41,8 +41,12 @@ public:
     void camera(const std::string& text); ///< as --camera
     void light(size_t index, const scene::Light&);
     void light(size_t index, const std::string& text); ///< as --light
+    void time(double seconds); ///< loads the scene as it is then, with this camera and these lights
+    double time() const { return options_.load.time; }
+    double duration() const { return duration_; } ///< of the scene's longest animation; 0: nothing moves
     void size(base::Size);
     void reset_parameters(); ///< of the left side
+    void inspect_next(); ///< the next image that the technique offers, or none after the last
 
     /// Draws what has changed. `moving`: something is being dragged, so that a slow picture may be coarser and truth waits.
     void update(bool moving);
@@ -71,7 +75,7 @@ public:
     lab::Choice left, right;
     Against against = Against::nothing;
     Look look;
-    bool insets = false;
+    OverlayWish overlays; ///< all but the footprint, which `look` decides
     bool coarse_while_moving = true;
     float ambient = 0.45f;
     Message message;
@@ -79,6 +83,7 @@ public:
     std::vector<std::string> time_order;
     int timed = 0; ///< pictures in these means
     double draw_ms = 0; ///< moving mean of a whole picture
+    double drawn_ms = 0; ///< the last picture
 
 private:
     /// Members are destroyed from the last to the first: each uses those before it.
@@ -88,7 +93,7 @@ private:
         std::unique_ptr<Picture> picture;
         std::unique_ptr<TruthWorker> truth;
     };
-    void load(const lab::StageOptions&);
+    void load(const lab::StageOptions&, bool same_file = false);
     void aim(base::Size);
     Wish wish() const;
     bool wants_coarse(bool moving) const;
@@ -108,6 +113,7 @@ private:
     std::string truth_key_;
     std::shared_ptr<const TruthWorker::Result> truth_; ///< what the drawn right side came from
     ShaderSources shaders_;
+    double duration_ = 0;
     double full_ms_ = 0; ///< of the last picture that was not coarse
     bool coarse_ = false;
 };

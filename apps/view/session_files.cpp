@@ -55,7 +55,8 @@ fs::path Session::screenshot(const std::string& name) const
     const fs::path file
         = name.empty() ? free_name("view." + fs::path(options_.scene).stem().string() + "." + std::string(left.info->id)) : fs::path(name);
     if (file.extension() != ".png") base::fail("'{}' is no name for a screenshot; end it with .png", file.string());
-    const bool plain = look.show == 0 && against == Against::nothing && !look.wireframe && !look.layers;
+    const bool plain
+        = look.show == 0 && against == Against::nothing && !look.wireframe && !overlays.layers && !overlays.volumes && overlays.inspect < 0;
     if (plain && picture().left().valid)
         base::write_png(file, lab::display(picture().radiance(), stage(), look.exposure), base::Encoding::srgb);
     else

@@ -1,51 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "side.h"
 
-#include "apps/view/composite.shared.h"
 #include "base/error.h"
 #include "base/hash.h"
-#include "shadow/light_constants.h"
-#include "shadow/parts/texel_footprint.h"
-
-#include <cstddef>
 
 namespace gnomon::view {
 
 namespace {
 
-constexpr uint32_t inset_columns = 4, inset_cell = 192; // pixels a side
-
 template <class T> std::string hex_of(const T& value) { return base::Hasher().bytes(std::as_bytes(std::span(&value, 1))).hex(); }
-
-void draw_overlays(gpu::PassList& passes, gpu::Device& device, const shadow::GBuffer& g, const scene::View& view,
-    const shadow::parts::LightMap& map, MapOverlays& overlays)
-{
-    overlays.layer_count = map.constants.layer_count;
-    if (overlays.layer_count == 0) return;
-    const auto constants = [&] {
-        return shadow::parts::with_map(
-            shaders::MapOverlayConstants{shadow::view_constants(view, 0), map.constants, inset_columns, inset_cell}, map,
-            offsetof(shaders::MapOverlayConstants, map));
-    };
-    if (overlays.footprint) {
-        fit_image(device, overlays.footprint_image, VK_FORMAT_R32G32B32A32_SFLOAT, view.size, "texel footprint");
-        shadow::parts::draw_texel_footprint(passes, g, view, map, passes.import(overlays.footprint_image));
-    }
-    if (overlays.layers) {
-        fit_image(device, overlays.layers_image, VK_FORMAT_R8G8B8A8_UNORM, view.size, "layers");
-        passes.fullscreen({.name = "overlay layers",
-            .program = &device.raster_program("shaders/fullscreen.vert", "apps/view/layers.frag"),
-            .bindings = {{g.depth, gpu::Use::sample}},
-            .constants = constants(),
-            .colors = {{passes.import(overlays.layers_image)}}});
-    }
-    if (overlays.insets)
-        passes.fullscreen({.name = "overlay insets",
-            .program = &device.raster_program("shaders/fullscreen.vert", "apps/view/insets.frag"),
-            .bindings = {gpu::Binding(map.depth, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
-            .constants = constants(),
-            .colors = {{passes.import(*overlays.insets_image)}}});
-}
 
 } // namespace
 
@@ -130,7 +93,7 @@ void Side::shade(
 }
 
 void Side::record(gpu::Device& device, shadow::SceneGpu& scene, Receivers& receivers, const lab::Stage& stage, const lab::Choice& choice,
-    float ambient, MapOverlays* overlays)
+    float ambient, Overlays* overlays)
 {
     make_techniques(device, stage, choice);
     std::vector<VkFormat> formats;
@@ -143,11 +106,13 @@ void Side::record(gpu::Device& device, shadow::SceneGpu& scene, Receivers& recei
     for (size_t i = 0; i < stage.lights.size(); ++i) {
         shadow::parts::LightMap map{};
         passes.group(std::string(choice.info->id));
-        techniques_[i]->record(passes,
-            shadow::Frame{stage.scene, stage.view, stage.lights[i], scene, g, passes.import(visibility[i]), frame, &map},
-            choice.params.bytes());
+        shadow::Frame recorded{stage.scene, stage.view, stage.lights[i], scene, g, passes.import(visibility[i]), frame, &map};
+        const bool overlaid = i == 0 && overlays;
+        if (overlaid) recorded.inspections = overlays->inspections();
+        techniques_[i]->record(passes, recorded, choice.params.bytes());
+        passes.group("overlay");
+        if (overlaid) overlays->record(passes, recorded, map, formats[i] == VK_FORMAT_R32G32B32A32_SFLOAT);
         passes.group("");
-        if (i == 0 && overlays) draw_overlays(passes, device, g, stage.view, map, *overlays);
     }
     const shadow::Output output = lab::output_of(choice);
     shade(passes, scene, g, stage, ambient, output == shadow::Output::visibility || output == shadow::Output::transmittance);
@@ -156,7 +121,7 @@ void Side::record(gpu::Device& device, shadow::SceneGpu& scene, Receivers& recei
 }
 
 bool Side::draw(gpu::Device& device, shadow::SceneGpu& scene, Receivers& receivers, const lab::Stage& stage, const lab::Choice& choice,
-    float ambient, const std::string& key, MapOverlays* overlays)
+    float ambient, const std::string& key, Overlays* overlays)
 {
     if (key == key_) return false;
     key_ = key; // also where it fails: the same would fail again

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lab/render.h"
-#include "shadow/parts/light_map.h"
+#include "overlays.h"
 
 #include <memory>
 #include <string>
@@ -18,20 +18,12 @@ public:
     gpu::Image depth, normal, primitive, albedo, surface, emissive;
 };
 
-/// What is drawn from a technique's map, if it leaves one.
-struct MapOverlays {
-    bool footprint = false, layers = false, insets = false; ///< wanted
-    gpu::Image footprint_image, layers_image;
-    gpu::Image* insets_image = nullptr;
-    uint32_t layer_count = 0; ///< of the map; 0: the technique leaves none
-};
-
 /// One technique's picture, or the truth's.
 class Side {
 public:
     /// Draws where `key` is not that of the last time. True where it did; `error` says why it could not.
     bool draw(gpu::Device&, shadow::SceneGpu&, Receivers&, const lab::Stage&, const lab::Choice&, float ambient, const std::string& key,
-        MapOverlays* overlays);
+        Overlays* overlays);
     /// The same with given visibility.
     bool draw(gpu::Device&, shadow::SceneGpu&, Receivers&, const lab::Stage&, const std::vector<base::Picture>& images, float ambient,
         const std::string& key);
@@ -46,7 +38,7 @@ public:
 
 private:
     void make_techniques(gpu::Device&, const lab::Stage&, const lab::Choice&);
-    void record(gpu::Device&, shadow::SceneGpu&, Receivers&, const lab::Stage&, const lab::Choice&, float ambient, MapOverlays*);
+    void record(gpu::Device&, shadow::SceneGpu&, Receivers&, const lab::Stage&, const lab::Choice&, float ambient, Overlays*);
     void shade(gpu::PassList&, shadow::SceneGpu&, const shadow::GBuffer&, const lab::Stage&, float ambient, bool shadowed);
     void fit(gpu::Device&, const lab::Stage&, const std::vector<VkFormat>&);
 

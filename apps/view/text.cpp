@@ -80,6 +80,11 @@ LightOrigin light_origin(const std::string& option, const std::vector<scene::Lig
     LightOrigin origin{parts.name, {}, has_light(known, parts.name)};
     for (const auto& [key, value] : parts.pairs)
         if (key == "image") origin.image = value;
+    for (const scene::Light& l : known)
+        if (l.name == parts.name) { // of two lights of one name the first is found
+            origin.color = l.color;
+            break;
+        }
     return origin;
 }
 
@@ -90,7 +95,7 @@ LightOrigin light_origin(const scene::Light& light, const std::vector<scene::Lig
     try {
         // Of two lights of one name the first is found.
         const scene::Light read = scene::parse_light(light.name, known, bounds);
-        if (read.kind() == light.kind()) return {light.name, {}, true};
+        if (read.kind() == light.kind()) return {light.name, {}, true, read.color};
     } catch (const std::exception&) {
     }
     return by_kind;
@@ -100,7 +105,7 @@ std::string light_text(const scene::Light& light, const LightOrigin& origin)
 {
     std::string text = origin.base + std::visit(ShapeText{origin.known}, light.shape);
     if (!origin.image.empty()) text += ",image=" + origin.image;
-    if (!origin.known && light.color != vec3(1.0f)) text += ",color=" + text_of(light.color);
+    if (light.color != origin.color) text += ",color=" + text_of(light.color);
     if (light.intensity) text += fmt::format(",intensity={}", *light.intensity);
     return text;
 }

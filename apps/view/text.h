@@ -19,6 +19,7 @@ struct LightOrigin {
     std::string base; ///< kind or name
     std::string image; ///< as image= was given; "" = none
     bool known = false; ///< a name
+    vec3 color{1}; ///< what it has without a colour of its own
 };
 LightOrigin light_origin(const std::string& option, const std::vector<scene::Light>& known);
 /// Of a light that was chosen for want of an option.

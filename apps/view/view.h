@@ -19,6 +19,8 @@ struct Options {
     bool validation = false;
     float exposure = 0, ambient = 0.45f; ///< stops; relative
     std::filesystem::path state; ///< where given, a JSON file that says what the window shows and where its widgets lie
+    double measure = 0; ///< > 0: goes around the target in so many seconds, prints pictures a second, and ends
+    bool json = false; ///< prints them as JSON
 };
 
 /// Opens the window and returns the exit code once it has been closed. Throws base::Error where there is no display.

@@ -5,6 +5,7 @@
 #include "apps/view/ui.shared.h"
 #include "controls.h"
 
+#include <fmt/format.h>
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
@@ -22,6 +23,24 @@ void label(ImDrawList& list, float x, float y, const std::string& text)
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     list.AddRectFilled({x - 3, y - 2}, {x + size.x + 3, y + size.y + 2}, IM_COL32(0, 0, 0, 160), 3.0f);
     list.AddText({x, y}, IM_COL32(255, 220, 90, 255), text.c_str());
+}
+
+/// What the colours of the image that is inspected mean, from its lower left corner.
+void draw_legend(ImDrawList& list, const Session& session, float x, float y)
+{
+    const Overlays& overlays = session.picture().overlays();
+    const Overlays::Offer& shown = *overlays.offered();
+    if (shown.label) return label(list, x + 4, y - 18, shown.name + ": a colour each");
+    constexpr float width = 40, height = 12;
+    const auto& colors = quantity_colors();
+    const auto packed = [](vec3 c) { return ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1.0f}); };
+    const std::string unit = shown.unit == "m" && session.overlays.in_pixels ? "pixels" : shown.unit;
+    for (size_t i = 0; i + 1 < colors.size(); ++i) {
+        const float left = x + float(i) * width;
+        list.AddRectFilledMultiColor(
+            {left, y - height}, {left + width, y}, packed(colors[i]), packed(colors[i + 1]), packed(colors[i + 1]), packed(colors[i]));
+    }
+    label(list, x + 4, y - height - 20, fmt::format("{}, {}: 0 to {:.3g} and more", shown.name, unit, overlays.most()));
 }
 
 ImTextureID fill(int which) { return reinterpret_cast<ImTextureID>(uintptr_t(which)); }
@@ -51,9 +70,10 @@ void Viewport::place(const Panels& panels, Session& session)
         label(list, x + 8, rect_[1] + 6, right);
         label(list, x - 8 - ImGui::CalcTextSize(own.c_str()).x, rect_[1] + 6, own);
     }
-    if (session.insets) {
+    if (session.picture().overlays().offered()) draw_legend(list, session, rect_[0] + 8, rect_[3] - 8);
+    if (session.overlays.insets) {
         // Four layers beside one another, two rows: only those that there are.
-        const uint32_t layers = session.picture().map_layers();
+        const uint32_t layers = session.picture().overlays().layers();
         const float columns = 0.25f * float(std::clamp(layers, 1u, 4u)), rows = layers > 4 ? 1.0f : 0.5f;
         const float inset = std::min(0.6f * w, 768.0f);
         list.AddImage(fill(UI_INSETS), {rect_[2] - columns * inset - 6, rect_[3] - 0.5f * rows * inset - 6}, {rect_[2] - 6, rect_[3] - 6},
@@ -106,9 +126,16 @@ void Viewport::key(int key, Panels& panels, Session& session)
     case GLFW_KEY_G:
         return toggle(session.look.wireframe);
     case GLFW_KEY_K:
-        return toggle(session.look.layers);
+        return toggle(session.overlays.layers);
     case GLFW_KEY_M:
-        return toggle(session.insets);
+        return toggle(session.overlays.insets);
+    case GLFW_KEY_B:
+        return toggle(session.overlays.volumes);
+    case GLFW_KEY_N:
+        return session.inspect_next();
+    case GLFW_KEY_SPACE:
+        panels.playing = !panels.playing && session.duration() > 0;
+        return;
     case GLFW_KEY_HOME:
         return session.attempt([&] {
             const auto& own = session.stage().scene.cameras;
@@ -158,7 +185,7 @@ void Viewport::begin_drag(Session& session)
     if (ImGui::IsMouseClicked(0))
         drag_ = ImGui::IsKeyDown(GLFW_KEY_L) ? Drag::light : near_split ? Drag::split : io.KeyShift ? Drag::slide : Drag::orbit;
     else if (ImGui::IsMouseClicked(1))
-        drag_ = Drag::look;
+        drag_ = ImGui::IsKeyDown(GLFW_KEY_L) ? Drag::light_size : Drag::look;
     else if (ImGui::IsMouseClicked(2))
         drag_ = Drag::slide;
 }
@@ -179,10 +206,12 @@ void Viewport::drag(Session& session)
                 session.camera(slide(camera, by, height));
             else if (drag_ == Drag::light)
                 session.light(0, drag_light(session.stage().lights.front(), camera, by, height, io.KeyShift));
+            else if (drag_ == Drag::light_size)
+                session.light(0, resize_light(session.stage().lights.front(), by.x, 0.001f * session.stage().bounds.radius()));
             else
                 session.look.split = std::clamp((io.MousePos.x - rect_[0]) / (rect_[2] - rect_[0]), 0.0f, 1.0f);
         });
-    const int button = drag_ == Drag::look ? 1 : drag_ == Drag::slide && ImGui::IsMouseDown(2) ? 2 : 0;
+    const int button = drag_ == Drag::look || drag_ == Drag::light_size ? 1 : drag_ == Drag::slide && ImGui::IsMouseDown(2) ? 2 : 0;
     if (!ImGui::IsMouseDown(button)) drag_ = Drag::none;
 }
 

@@ -17,7 +17,7 @@ public:
     const float* rectangle() const { return rect_; } ///< left, top, right, bottom in the window
 
 private:
-    enum class Drag { none, orbit, look, slide, light, split };
+    enum class Drag { none, orbit, look, slide, light, light_size, split };
     void key(int key, Panels&, Session&);
     void fly(Session&, double seconds);
     void begin_drag(Session&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/advise_rule.h"
 #include "lab/compare.h"
 #include "lab/features.h"
 
@@ -26,10 +27,10 @@ struct Candidate {
 /// From the registry by what techniques say of themselves, in settings that follow from the names of their parameters; those that were left
 /// out come once each, with the reason. Nothing here names a technique.
 std::vector<Candidate> find_candidates(const gpu::Device&, const Stage&, const Features&, Prefer);
-/// The settings of one technique, those with small maps first.
-std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer);
+/// The settings of one technique, those with small maps first; `see_through`: those as well that let light through semitransparent casters.
+std::vector<Choice> settings(const shadow::TechniqueInfo&, const scene::Light&, Prefer, bool see_through = false);
 
-/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, and else the same.
+/// Whether `a` is `b` with more of what it spends its time on, by the names of parameters, or with several maps for one, and else the same.
 bool costs_more(const Choice& a, const Choice& b);
 
 struct AdviseOptions {
@@ -46,27 +47,39 @@ struct AdviseOptions {
 
 struct Measured {
     Choice choice;
-    double error = 0, ms = 0, excess = 0; ///< excess: by which part it is over the budget
-    uint64_t bytes = 0;
+    Reading reading;
+    double excess = 0; ///< by which part it is over the budget
+};
+
+/// A technique, or one of its settings, that could not be advised.
+struct LeftOut {
+    std::string what, why;
 };
 
 struct Advice {
-    std::string scene, camera, light, device, driver, commit, metric;
+    std::string scene, camera, light, device, driver, commit, metric, reference;
     std::vector<std::string> budget;
     base::Size size;
     Features features;
-    double reference_ms = 0;
-    size_t candidates = 0, finished = 0; ///< settings that began, and those that were measured at full size
-    std::vector<Measured> front; ///< errors against times of the finished, fastest first
+    double reference_ms = 0; ///< the least of its frames; 0 where the budget does not refer to it
+    size_t candidates = 0, techniques = 0; ///< settings that began, and of how many techniques
+    std::vector<Measured> measured; ///< at full size
+    std::vector<Measured> front; ///< errors against times of those, fastest first
     std::optional<Measured> chosen; ///< none where nothing keeps the budget
     std::string nothing; ///< then: a sentence that names the nearest
-    std::vector<std::string> reasons, left_out; ///< sentences
+    std::vector<std::string> reasons; ///< sentences
+    std::vector<LeftOut> left_out;
     std::optional<Measured> best; ///< of all candidates at full size; only where exhaustive
-    double regret = 0; ///< by which part the choice's error is above the best one's
+    double regret = 0; ///< by which part the choice's error is above the best one's, or above one wrong pixel where that is more
 };
 
 /// Throws base::Error on names that do not exist and where no technique can run.
 Advice advise(gpu::Device&, const AdviseOptions&);
+
+/// Why, in sentences, from all else that an advice holds.
+std::vector<std::string> advice_reasons(const Advice&);
+/// The sentence for a budget that nothing keeps; something was measured.
+std::string nothing_keeps(const Advice&);
 
 nlohmann::ordered_json advice_json(const Advice&);
 std::string advice_text(const Advice&); ///< for a terminal

@@ -48,6 +48,14 @@ bool is_amount(const ParamInfo& info)
         && std::any_of(std::begin(amounts), std::end(amounts), [&](const Amount& a) { return info.name == a.name; });
 }
 
+/// Several maps of map_size in place of one.
+bool has_layers(const Choice& choice)
+{
+    const ParamInfo* fit = choice.params.table().find("fit");
+    const std::string name = fit ? choice.params.text(*fit) : "";
+    return name == "cascades" || name == "sdsm";
+}
+
 void add_amounts(const Choice& base, std::vector<Choice>& out)
 {
     for (const Amount& amount : amounts) {
@@ -66,6 +74,17 @@ void add_amounts(const Choice& base, std::vector<Choice>& out)
     const ParamInfo *taps = base.params.table().find("taps"), *search = base.params.table().find("search_taps");
     if (taps && search && is_amount(*taps) && is_amount(*search))
         add(out, with(with(base, *taps, 2 * base.params.get(*taps)), *search, 2 * base.params.get(*search)));
+}
+
+/// With what makes the technique let light through semitransparent casters: a parameter that turns its output into transmittance.
+void add_transmittance(const Choice& base, std::vector<Choice>& out)
+{
+    if (!base.info->output_of || output_of(base) == shadow::Output::transmittance) return;
+    for (const ParamInfo& p : base.params.table().fields) {
+        const size_t values = p.type == ParamType::choice ? p.choices.size() : p.type == ParamType::flag ? 2 : 0;
+        for (size_t i = 0; i < values; ++i)
+            if (Choice other = with(base, p, double(i)); output_of(other) == shadow::Output::transmittance) add(out, std::move(other));
+    }
 }
 
 /// Maps that follow the view, where light and technique take them; those whose shadows' edges swim are not stable.
@@ -118,12 +137,13 @@ Prefer parse_prefer(const std::string& text)
     return Prefer(found - names.begin());
 }
 
-std::vector<Choice> settings(const shadow::TechniqueInfo& info, const scene::Light& light, Prefer prefer)
+std::vector<Choice> settings(const shadow::TechniqueInfo& info, const scene::Light& light, Prefer prefer, bool see_through)
 {
     std::vector<Choice> out;
     const std::vector<Choice> bases = fitted(default_choice(info), light, prefer);
     for (const Choice& base : bases) add(out, base);
     if (!bases.empty()) add_amounts(bases.front(), out);
+    if (!bases.empty() && see_through) add_transmittance(bases.front(), out);
     // several layers again with half as wide ones: four of them have the texels of one
     for (size_t i = 1; i < bases.size(); ++i)
         if (const ParamInfo* size = bases[i].params.table().find("map_size"); size && is_amount(*size))
@@ -144,7 +164,8 @@ bool costs_more(const Choice& a, const Choice& b)
     for (const ParamInfo& p : a.params.table().fields) {
         const double from = b.params.get(p), to = a.params.get(p);
         if (from == to) continue;
-        if (!is_amount(p) || to < from) return false;
+        const bool layers = p.name == "fit" && has_layers(a) && !has_layers(b);
+        if (!layers && (!is_amount(p) || to < from)) return false;
         more = true;
     }
     return more;
@@ -158,7 +179,8 @@ std::vector<Candidate> find_candidates(const gpu::Device& device, const Stage& s
             out.push_back({default_choice(*info), why});
             continue;
         }
-        for (Choice& choice : settings(*info, stage.lights.front(), prefer)) out.push_back({std::move(choice), ""});
+        for (Choice& choice : settings(*info, stage.lights.front(), prefer, features.see_through > 0))
+            out.push_back({std::move(choice), ""});
     }
     return out;
 }

@@ -124,19 +124,19 @@ void AovCopies::record_footprint(
     shadow::parts::draw_texel_footprint(passes, g, view, map, passes.import(images_.at("footprint")));
 }
 
-std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const Stage& stage)
+std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const scene::View& view)
 {
     std::map<std::string, base::Picture> out;
     if (images_.count("depth")) {
         base::Picture depth, position;
-        unproject(device.read_back(images_["depth"]), stage.view, depth, position);
+        unproject(device.read_back(images_["depth"]), view, depth, position);
         if (wants("depth")) out["depth"] = depth;
         if (wants("position")) out["position"] = position;
     }
     if (images_.count("normal")) {
         const std::vector<std::byte> texels = device.read_back_bytes(images_["normal"]);
-        if (wants("normal")) out["normal"] = normals(texels, stage.view.size, 0);
-        if (wants("geometric_normal")) out["geometric_normal"] = normals(texels, stage.view.size, 1);
+        if (wants("normal")) out["normal"] = normals(texels, view.size, 0);
+        if (wants("geometric_normal")) out["geometric_normal"] = normals(texels, view.size, 1);
     }
     if (images_.count("albedo")) out["albedo"] = first_channels(device.read_back(images_["albedo"]), 3);
     if (images_.count("surface")) out["surface"] = first_channels(device.read_back(images_["surface"]), 2);
@@ -148,7 +148,7 @@ std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const 
     }
     if (images_.count("primitive")) {
         const std::vector<std::byte> texels = device.read_back_bytes(images_["primitive"]);
-        base::Picture ids(stage.view.size, 1);
+        base::Picture ids(view.size, 1);
         for (size_t i = 0; i < ids.values.size(); ++i) {
             uint32_t id;
             memcpy(&id, texels.data() + i * 4, 4);

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/image_file.h"
 #include "base/progress.h"
+#include "lab/sequence.h"
 #include "metrics/metrics.h"
 
 #include <commit.h>
@@ -48,12 +49,14 @@ public:
     Comparer(gpu::Device& device, const CompareOptions& options)
         : device_(device)
         , options_(options)
-        , stage_(open_stage(with_common_lights(options)))
+        , stage_options_(with_common_lights(options))
+        , stage_(open_stage(stage_options_))
         , scene_(device, stage_.scene)
     {
         for (const std::string& text : options.techniques) choices_.push_back(parse_choice(text));
         if (choices_.empty()) base::fail("no technique to compare; name some with --techniques a,b (see `gnomon list`)");
         if (!options.reference.empty()) parse_choice(options.reference);
+        if (!options.motion.empty()) motion_ = parse_motion(options.motion);
         out_.device = device.info().name, out_.driver = device.info().driver, out_.commit = commit();
     }
 
@@ -90,6 +93,9 @@ private:
         references_.clear();
         truth_lit_.clear();
         if (!options_.reference.empty()) filter_ = filter_reference(device_, scene_, stage_, options_.reference);
+        if (motion_)
+            sequence_.emplace(device_, scene_, stage_, stage_options_, *motion_,
+                SequenceSettings{options_.truth_samples, options_.frame_index, options_.truth_cache});
         progress.advance();
         for (const Choice& choice : choices_) {
             Run run = new_run(stage_, choice, light_);
@@ -121,6 +127,11 @@ private:
         run.pictures = {{"lit", write(run.technique, lit, base::Encoding::srgb)},
             {"visibility", write(run.technique + ".visibility", judged_channels(rendered.images.front(), 1), base::Encoding::linear)},
             {"error", write(run.technique + ".error", heat_map, base::Encoding::linear)}};
+        if (sequence_) {
+            base::Picture change;
+            sequence_->measure(choice, run, &change);
+            run.pictures["change"] = write(run.technique + ".change", change_display(change), base::Encoding::linear);
+        }
     }
 
     void write_text(const char* name, const std::string& text)
@@ -144,11 +155,14 @@ private:
 
     gpu::Device& device_;
     const CompareOptions& options_;
+    const StageOptions stage_options_;
     Stage stage_;
     shadow::SceneGpu scene_;
     std::vector<Choice> choices_;
     std::map<truth::Quantity, truth::Reference> references_;
     std::map<truth::Quantity, base::Picture> truth_lit_;
+    std::optional<Motion> motion_;
+    std::optional<Sequence> sequence_; ///< of the present light
     FilterReference filter_; ///< of the present light
     std::string light_;
     Comparison out_;

@@ -19,6 +19,7 @@ struct CompareOptions {
     std::string reference; ///< parse_choice: the technique that filtering is measured against; empty = none
     int truth_samples = 256;
     int repeats = 3; ///< timed frames after one warm-up
+    std::string motion; ///< parse_motion: how the error changes along such a sequence is measured too; empty = it is not
     uint32_t frame_index = 0;
     std::filesystem::path folder; ///< where pictures and results.json go; empty = none are written
     std::filesystem::path truth_cache; ///< empty = the user's cache
@@ -26,6 +27,14 @@ struct CompareOptions {
 
 /// Files in the folder of a comparison: "lit", "visibility" and, of techniques, "error".
 using Pictures = std::map<std::string, std::string>;
+
+/// How a technique did along a sequence (docs/results.md, "Sequences").
+struct SequenceNumbers {
+    std::string motion; ///< motion_text; empty = none was made
+    std::vector<double> mae; ///< of each frame
+    std::vector<double> change; ///< of each frame after the first: mean change of the error
+    size_t followed = 0, lost = 0, moved = 0; ///< metrics::Temporal
+};
 
 /// One technique under one light, measured against truth. docs/results.md describes its JSON.
 struct Run {
@@ -37,6 +46,7 @@ struct Run {
     std::string params; ///< JSON text
     std::vector<PassStats> passes;
     double technique_ms = 0, technique_deviation = 0;
+    double technique_least_ms = 0; ///< of the timed frames
     uint64_t bytes = 0;
     std::map<std::string, uint64_t> counts; ///< of its work, by name; empty where it counts none
     std::map<std::string, double> metrics;
@@ -45,6 +55,7 @@ struct Run {
     size_t excluded_pixels = 0; ///< raster and rays see different surfaces there
     size_t scored_pixels = 0;
     int truth_samples = 0;
+    SequenceNumbers sequence;
     double truth_noise = 0; ///< RMS standard error of the truth
     std::string skipped; ///< the reason why this technique did not run here; the rest is then empty
 };
@@ -94,6 +105,9 @@ struct ScoreOptions {
     base::Picture* heat_map = nullptr;
     std::vector<uint8_t>* edge_band = nullptr; ///< kept between scores of one stage and light: empty before the first
 };
+
+/// 1 where raster and rays see the same surface, as `score` says. `excluded`: the others are added to it.
+std::vector<uint8_t> score_mask(const truth::Primary&, const Rendered&, size_t* excluded = nullptr);
 
 /// Measures one technique's first image against the truth of its light. Scored are the pixels where raster and rays see the same
 /// surface: the same primitive, or coincident ones (depth within 1e-4 of its value, normals within 1 degree: a wall modelled twice,

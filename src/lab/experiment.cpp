@@ -6,6 +6,7 @@
 #include "lab/experiment_expand.h"
 #include "lab/json_keys.h"
 #include "metrics/metrics.h"
+#include "metrics/temporal.h"
 
 #include <algorithm>
 
@@ -25,6 +26,7 @@ const std::vector<std::string>& number_columns()
         std::vector<std::string> out = {"ms", "ms_deviation", "gbuffer_ms", "passes", "mib", "scored_pixels", "excluded_pixels", "flip"};
         for (const metrics::Metric& m : metrics::metrics()) out.emplace_back(m.id);
         for (const metrics::Metric& m : metrics::filter_metrics()) out.emplace_back(m.id);
+        for (const metrics::Metric& m : metrics::temporal_metrics()) out.emplace_back(m.id);
         return out;
     }();
     return names;
@@ -61,7 +63,7 @@ Experiment parse(const Json& json, const fs::path& file)
     out.name = (file.filename() == "experiment.json" ? absolute.parent_path().filename() : file.stem()).string();
     known_keys(json,
         {"title", "about", "scene", "scenes", "camera", "cameras", "light", "lights", "size", "sizes", "axes", "technique", "techniques",
-            "reference", "metrics", "truth_samples", "warm_up", "repeats", "frame", "tables", "plots"},
+            "reference", "motion", "metrics", "truth_samples", "warm_up", "repeats", "frame", "tables", "plots"},
         file);
     out.title = json.value("title", out.name), out.about = json.value("about", "");
     out.truth_samples = whole_number(json, "truth_samples", 256, 1, 1 << 20);

@@ -47,6 +47,7 @@ struct Cell {
     StageOptions stage;
     Choice choice;
     std::optional<Choice> reference;
+    std::string motion; ///< parse_motion; empty = no sequence is measured
     std::string key; ///< hash of all that the result follows from but device and program; equal cells are one run
 };
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "lab/json_keys.h"
+#include "lab/motion.h"
 
 #include <algorithm>
 #include <cctype>
@@ -162,7 +163,11 @@ private:
         const Named light = named(fill(light_in, axes), "light", {"light", "label"}, file);
         const std::string size = string_of(fill(size_in, axes), "size");
         const Named technique = named(fill(techniques_[index], axes), "technique", {"technique", "label", "params", "reference"}, file);
-        Cell cell{{}, {}, parse_choice(beside_file(technique.text)), {}, {}};
+        Cell cell{{}, {}, parse_choice(beside_file(technique.text)), {}, {}, {}};
+        if (json_.contains("motion")) {
+            cell.motion = string_of(fill(json_["motion"], axes), "motion");
+            parse_motion(cell.motion);
+        }
         if (technique.object.contains("params")) cell.choice.params.set_json(technique.object["params"]);
         const Json reference = technique.object.contains("reference") ? technique.object["reference"] : json_.value("reference", Json());
         if (!reference.is_null()) {

@@ -26,9 +26,9 @@ void open_stages(Experiment& out)
     for (Cell& cell : out.cells) {
         if (scene_text(cell) != opened) {
             stage = open_stage(cell.stage);
-            if (stage.scene.tuning)
-                base::fail(
-                    "{} is a scene for tuning, which published tables may not use; name one without \"tuning\": true", cell.stage.scene);
+            if (stage.scene.tuning || stage.scene.validation)
+                base::fail("{0} is a scene for {1}, which published tables may not use; name one without \"{1}\": true", cell.stage.scene,
+                    stage.scene.tuning ? "tuning" : "validation");
             opened = scene_text(cell), aimed.clear();
         }
         if (stage_text(cell) != aimed) {
@@ -52,6 +52,8 @@ void finish_keys(Experiment& out)
         h.text("run 1").text(cell.key).text(cell.choice.info->id).text(cell.choice.params.json().dump());
         h.text(cell.reference ? cell.reference->info->id : "").text(cell.reference ? cell.reference->params.json().dump() : "");
         h.value(out.truth_samples).value(out.warm_up).value(out.repeats).value(out.frame_index).value(out.flip);
+        // named only where there is one: runs without keep the keys that they had before there were motions
+        if (!cell.motion.empty()) h.text("motion 1").text(cell.motion);
         // what the truth does not feel, colours, is seen by FLIP
         if (out.flip) h.text(stage_text(cell));
         cell.key = h.hex();

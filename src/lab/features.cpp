@@ -169,14 +169,17 @@ std::vector<std::string> feature_sentences(const Features& f)
 {
     const auto part = [&](size_t count) { return 100.0 * double(count) / double(std::max<size_t>(f.triangles, 1)); };
     std::vector<std::string> out = {fmt::format("{} triangles; {} of {} meshes are open", f.triangles, f.open_meshes, f.meshes)};
-    if (f.masked) out.push_back(fmt::format("{:.2g} % of the triangles are masked by alpha", part(f.masked)));
-    if (f.see_through)
+    if (f.masked)
         out.push_back(
-            fmt::format("{:.2g} % of the triangles are semitransparent: what comes through them counts as truth", part(f.see_through)));
-    out.push_back(fmt::format("the light is a {} one{}{}; {:.2g} % of what is seen is in its shadow", scene::kind_name(f.light),
+            fmt::format("{:.2g} % of the triangles are masked by alpha: truth cuts their holes, and what takes them as solid errs there",
+                part(f.masked)));
+    if (f.see_through)
+        out.push_back(fmt::format(
+            "{:.2g} % of the triangles are semitransparent: truth is the light that comes through them, by colour", part(f.see_through)));
+    out.push_back(fmt::format("the light is a {} one{}{}; {:.2g} % of what is seen is in {}", scene::kind_name(f.light),
         f.soft ? fmt::format(" with an area: penumbrae are about {:.0f} pixels wide", f.penumbra_pixels) : ", hard",
-        f.textured ? ", with an image" : "", 100.0 * f.shadowed));
-    if (f.moves) out.push_back("the model moves; times are those of one moment");
+        f.textured ? ", with an image" : "", 100.0 * f.shadowed, f.see_through ? "the shadow of opaque casters" : "shadow"));
+    if (f.moves) out.push_back("the model moves: measured is one moment of it");
     return out;
 }
 

@@ -99,6 +99,17 @@ std::vector<std::string> parse_sum(const std::string& text)
     return out;
 }
 
+std::vector<std::vector<std::string>> parse_terms(const std::string& text)
+{
+    std::vector<std::vector<std::string>> out;
+    for (size_t from = 0; from <= text.size();) {
+        const size_t to = std::min(text.find(',', from), text.size());
+        out.push_back(parse_sum(text.substr(from, to - from)));
+        from = to + 1;
+    }
+    return out;
+}
+
 bool is_cost(const std::string& quantity) { return quantity == "time" || quantity == "bytes"; }
 
 double quantity_of(const Run& run, const std::string& quantity)

@@ -23,6 +23,8 @@ Constraint parse_budget(const std::string& text);
 
 /// "leak+acne": the quantities whose sum is minimised: metrics, or time and bytes as multiples of the reference's. Throws base::Error.
 std::vector<std::string> parse_sum(const std::string& text);
+/// "leak+acne,mae": sums, each of which is to be small as a part of what it was. Throws base::Error.
+std::vector<std::vector<std::string>> parse_terms(const std::string& text);
 
 /// What a run has of a quantity: a metric, time (milliseconds) or bytes. Metrics that have a sign count by their size. Throws base::Error
 /// where it was not measured, as those of hard lights under a soft one.

@@ -92,7 +92,7 @@ std::vector<size_t> halve(const HalvingOptions& options)
         left = ran;
         if (round + 1 == options.rounds) break;
         std::vector<size_t> next;
-        for (const size_t i : chosen(trials, std::max(options.least, (left.size() + 1) / 2), options.slack)) next.push_back(left[i]);
+        for (const size_t i : chosen(trials, std::max(options.least, (left.size() + 2) / 3), options.slack)) next.push_back(left[i]);
         std::sort(next.begin(), next.end());
         left = std::move(next);
     }

@@ -22,7 +22,7 @@ struct HalvingOptions {
     std::function<std::optional<Trial>(size_t candidate, int round)> measure; ///< nothing: it cannot run
 };
 
-/// Half of those that are left goes on to the next round: alternately the one with the least error and the one on the foremost Pareto front
+/// A third of those that are left goes on to the next round: alternately the one with the least error and the one on the foremost Pareto front
 /// of error and time, and two that keep the budget for each that is
 /// over it by no more than the slack. Where none is within that, those go on that are least over it. Returns the candidates of the last
 /// round, in their order.

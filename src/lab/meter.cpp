@@ -66,7 +66,7 @@ std::string Meter::key(size_t place)
         settings_.quantity.value_or(truth::Quantity::visibility));
 }
 
-Run Meter::measure(size_t index, const Choice& choice, int repeats)
+Run Meter::measure(size_t index, const Choice& choice, int repeats, const Again& again)
 {
     Place& place = aim(index);
     Stage& stage = place.opened->stage;
@@ -81,21 +81,22 @@ Run Meter::measure(size_t index, const Choice& choice, int repeats)
     if (!settings_.reference.empty() && place.filter.choice.empty())
         place.filter = filter_reference(device_, *place.opened->scene, stage, settings_.reference);
     Run run = new_run(stage, choice, light_name(index));
-    const Rendered rendered = render(device_, *place.opened->scene, stage, choice, {.repeats = repeats, .lit = false, .aovs = scored_aovs});
+    const Rendered rendered
+        = render(device_, *place.opened->scene, stage, choice, {.repeats = repeats, .again = again, .lit = false, .aovs = scored_aovs});
     score(stage, light, judge->second.truth, rendered, run,
         {.filter = settings_.reference.empty() ? nullptr : &place.filter, .edge_band = &judge->second.edge_band});
     add_times(run, rendered);
     return run;
 }
 
-Run Meter::measure_time(size_t index, const Choice& choice, int repeats)
+Run Meter::measure_time(size_t index, const Choice& choice, int repeats, const Again& again)
 {
     Place& place = aim(index);
     Stage& stage = place.opened->stage;
     if (const std::string reason = shadow::refusal(*choice.info, device_, stage.lights.front()); !reason.empty()) base::fail("{}", reason);
     if (!place.opened->scene) place.opened->scene.emplace(device_, stage.scene);
     Run run = new_run(stage, choice, light_name(index));
-    add_times(run, render(device_, *place.opened->scene, stage, choice, {.repeats = repeats, .lit = false}));
+    add_times(run, render(device_, *place.opened->scene, stage, choice, {.repeats = repeats, .again = again, .lit = false}));
     return run;
 }
 

@@ -31,10 +31,11 @@ public:
     std::string light_name(size_t place);
     std::string key(size_t place); ///< a hash of all that its truth follows from
 
-    /// With one repeat, times hold the making of pipelines. Throws base::Error where the technique cannot run there.
-    Run measure(size_t place, const Choice&, int repeats);
+    /// With one repeat, times hold the making of pipelines; `again` as in RenderSettings. Throws base::Error where the technique cannot run
+    /// there.
+    Run measure(size_t place, const Choice&, int repeats, const Again& again = {});
     /// A frame's time alone: neither truth nor metrics.
-    Run measure_time(size_t place, const Choice&, int repeats);
+    Run measure_time(size_t place, const Choice&, int repeats, const Again& again = {});
 
 private:
     struct Opened;

@@ -6,6 +6,8 @@
 #include "lab/json_keys.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace gnomon::lab {
 
@@ -13,19 +15,23 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-double mean(const std::vector<Preset::Place>& places, double Preset::Place::*value)
+Json quantities_json(const std::vector<Preset::Place>& places, std::map<std::string, double> Preset::Place::*values)
 {
-    double sum = 0;
-    for (const Preset::Place& p : places) sum += p.*value;
-    return places.empty() ? 0 : sum / double(places.size());
+    Json out = Json::object();
+    for (const Preset::Place& p : places)
+        for (const auto& [quantity, value] : p.*values) out[quantity] = out.value(quantity, 0.0) + value / double(places.size());
+    return out;
 }
 
 Json places_json(const std::vector<Preset::Place>& places)
 {
-    Json out = {{"before", mean_before(places)}, {"after", mean_after(places)}, {"places", Json::array()}};
+    const Ratios all = ratios(places);
+    Json out = {{"ratio", all.mean}, {"standard_error", all.error}, {"terms", all.terms},
+        {"before", quantities_json(places, &Preset::Place::before)}, {"after", quantities_json(places, &Preset::Place::after)},
+        {"places", Json::array()}};
     for (const Preset::Place& p : places) {
         Json one = {{"scene", p.scene}, {"camera", p.camera}, {"light", p.light}, {"size", {p.size.width, p.size.height}},
-            {"before", p.before}, {"after", p.after}};
+            {"ratio", p.ratio()}, {"before", p.before}, {"after", p.after}};
         if (p.time_ratio > 0) one["time_ratio"] = p.time_ratio;
         out["places"].push_back(one);
     }
@@ -44,8 +50,27 @@ Json params_json(const Preset& preset)
 
 } // namespace
 
-double mean_before(const std::vector<Preset::Place>& places) { return mean(places, &Preset::Place::before); }
-double mean_after(const std::vector<Preset::Place>& places) { return mean(places, &Preset::Place::after); }
+double Preset::Place::ratio() const { return std::accumulate(ratios.begin(), ratios.end(), 0.0) / double(ratios.size()); }
+
+bool Ratios::gained() const
+{
+    constexpr double least = 0.005, dear = 0.01;
+    return mean < 1 - std::max(error, least) && std::all_of(terms.begin(), terms.end(), [](double t) { return t <= 1 + dear; });
+}
+
+Ratios ratios(const std::vector<Preset::Place>& places)
+{
+    if (places.empty()) return {};
+    const double n = double(places.size());
+    Ratios out{0, 0, std::vector<double>(places.front().ratios.size())};
+    for (const Preset::Place& p : places) {
+        out.mean += p.ratio() / n;
+        for (size_t t = 0; t < out.terms.size(); ++t) out.terms[t] += p.ratios[t] / n;
+    }
+    for (const Preset::Place& p : places) out.error += (p.ratio() - out.mean) * (p.ratio() - out.mean);
+    out.error = places.size() > 1 ? std::sqrt(out.error / (n - 1) / n) : 0;
+    return out;
+}
 
 Json preset_json(const Preset& preset)
 {

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,10 @@ struct Preset {
     struct Place {
         std::string scene, camera, light;
         base::Size size;
-        double before = 0, after = 0; ///< of what was minimised
+        std::map<std::string, double> before, after; ///< of each quantity that was minimised
+        std::vector<double> ratios; ///< after by before, of each term of what was minimised
         double time_ratio = 0; ///< after by before; 0 where times were not asked for
+        double ratio() const; ///< mean of `ratios`: what the search made small
     };
     Choice choice;
     std::vector<std::string> vary; ///< the parameters that were searched
@@ -30,8 +33,14 @@ struct Preset {
     uint64_t seed = 0;
     std::string device, driver, commit;
 };
-double mean_before(const std::vector<Preset::Place>&);
-double mean_after(const std::vector<Preset::Place>&);
+/// What a setting errs as parts of what the search's start does.
+struct Ratios {
+    double mean = 1, error = 0; ///< over the places, and its standard error
+    std::vector<double> terms; ///< of each, the mean over the places
+    /// Smaller than 1 by more than the standard error and half a percent, and no term larger than it was by more than a percent.
+    bool gained() const;
+};
+Ratios ratios(const std::vector<Preset::Place>&);
 
 nlohmann::ordered_json preset_json(const Preset&);
 /// Written whole or not at all. Throws base::Error.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace gnomon::lab {
 
@@ -53,6 +54,7 @@ public:
         , stage_(stage)
         , choice_(choice)
         , settings_(settings)
+        , camera_(stage.camera)
     {
         for (const scene::Light& light : stage.lights) {
             const std::string reason = refusal(*choice.info, device, light);
@@ -65,9 +67,12 @@ public:
         if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
     }
 
+    void look_from(const scene::Camera& camera) { camera_ = camera; }
+    scene::View view(vec2 jitter = vec2(0)) const { return scene::make_view(camera_, stage_.view.size, stage_.bounds, jitter); }
+
     gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs, std::vector<Counter>* counters = nullptr)
     {
-        const scene::View view = scene::make_view(stage_.camera, stage_.view.size, stage_.bounds, jitter);
+        const scene::View view = this->view(jitter);
         gpu::PassList passes(device_);
         const GBuffer g = draw_gbuffer(
             passes, scene_, view, {.material = settings_.lit || aovs, .previous = aovs && aovs->wants("motion") ? &view : nullptr});
@@ -110,13 +115,22 @@ public:
         return out;
     }
 
+    /// What the last frame left.
+    void read(AovCopies& aovs, Rendered& out)
+    {
+        for (gpu::Image& image : targets_.images) out.images.push_back(device_.read_back(image));
+        out.primitive = words(device_.read_back_bytes(targets_.primitive));
+        out.aovs = aovs.read(device_, view());
+        if (settings_.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
+    }
+
     uint64_t kept_bytes() const
     {
         uint64_t bytes = 0;
         for (const auto& technique : techniques_) bytes += technique->kept_bytes();
         return bytes;
     }
-    Targets& targets() { return targets_; }
+    gpu::Image& radiance() { return targets_.radiance; }
 
 private:
     void copy_counters(gpu::PassList& passes, const std::vector<Counter>& counters)
@@ -132,6 +146,7 @@ private:
     const Stage& stage_;
     const Choice& choice_;
     const RenderSettings& settings_;
+    scene::Camera camera_;
     std::vector<std::unique_ptr<Technique>> techniques_;
     Targets targets_;
     gpu::Buffer counted_;
@@ -139,16 +154,25 @@ private:
 
 struct Sums {
     double sum = 0, squares = 0;
+    double least = std::numeric_limits<double>::infinity();
     int count = 0;
-    void add(double v) { sum += v, squares += v * v, ++count; }
+    void add(double v) { sum += v, squares += v * v, least = std::min(least, v), ++count; }
     double mean() const { return count ? sum / count : 0; }
     double deviation() const { return count > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / count) / (count - 1))) : 0; }
 };
 
+double own_ms(const std::vector<gpu::PassTime>& frame, std::string_view id)
+{
+    const std::string own = std::string(id) + "/";
+    double ms = 0;
+    for (const gpu::PassTime& t : frame)
+        if (t.name.starts_with(own)) ms += t.ms;
+    return ms;
+}
+
 /// Passes of one name in one frame (several lights or layers) are added up.
 void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs, std::string_view id)
 {
-    const std::string own = std::string(id) + "/";
     std::vector<std::string> names;
     std::map<std::string, Sums> sums;
     std::map<std::string, int> counts;
@@ -156,19 +180,18 @@ void collect(Rendered& out, const std::vector<std::vector<gpu::PassTime>>& runs,
     for (const auto& run : runs) {
         std::map<std::string, double> frame;
         counts.clear();
-        double total = 0;
         for (const gpu::PassTime& t : run) {
             if (std::find(names.begin(), names.end(), t.name) == names.end()) names.push_back(t.name);
             frame[t.name] += t.ms;
             ++counts[t.name];
-            if (t.name.starts_with(own)) total += t.ms;
         }
         for (const auto& [name, ms] : frame) sums[name].add(ms);
-        technique.add(total);
+        technique.add(own_ms(run, id));
     }
     for (const std::string& name : names)
         if (!name.starts_with("copy ")) out.passes.push_back({name, sums[name].mean(), sums[name].deviation(), counts[name]});
     out.technique_ms = technique.mean(), out.technique_deviation = technique.deviation();
+    out.technique_least_ms = technique.least;
 }
 
 void add_rgb(base::Picture& sum, const base::Picture& rgba, float weight)
@@ -217,27 +240,43 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
     const gpu::Submitted first = renderer.draw(vec2(0), settings.frame_index, &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
-    const int warm_up = std::max(settings.warm_up, settings.repeats > 1 ? 1 : 0);
+    const int warm_up = std::max(settings.warm_up, settings.repeats > 1 || settings.again ? 1 : 0);
     if (warm_up == 0) runs.push_back(first.times);
     for (int i = 1; i < warm_up; ++i) renderer.draw(vec2(0), settings.frame_index, nullptr);
-    if (warm_up > 0)
-        for (int i = 0; i < settings.repeats; ++i) runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
+    double least = std::numeric_limits<double>::infinity();
+    const auto again = [&](int frames) { return settings.again && frames > 0 ? settings.again(frames, least) : frames < settings.repeats; };
+    for (int i = 0; warm_up > 0 && again(i); ++i) {
+        runs.push_back(renderer.draw(vec2(0), settings.frame_index, nullptr).times);
+        least = std::min(least, own_ms(runs.back(), choice.info->id));
+    }
     collect(out, runs, choice.info->id);
     const auto own = first.group_bytes.find(std::string(choice.info->id));
     out.technique_bytes = (own == first.group_bytes.end() ? 0 : own->second) + renderer.kept_bytes();
 
     if (settings.count && choice.info->counts) out.counts = renderer.count(settings.frame_index);
 
-    Targets& targets = renderer.targets();
-    for (gpu::Image& image : targets.images) out.images.push_back(device.read_back(image));
-    out.primitive = words(device.read_back_bytes(targets.primitive));
-    out.aovs = aovs.read(device, stage);
-    if (settings.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
+    renderer.read(aovs, out);
     for (int s = 0; settings.lit && s < settings.samples; ++s) {
         if (settings.samples > 1)
             renderer.draw(
                 vec2(halton(s + 1, 2), halton(s + 1, 3)) - 0.5f, settings.frame_index * uint32_t(settings.samples) + uint32_t(s), nullptr);
-        add_rgb(out.radiance, device.read_back(targets.radiance), 1.0f / float(settings.samples));
+        add_rgb(out.radiance, device.read_back(renderer.radiance()), 1.0f / float(settings.samples));
+    }
+    return out;
+}
+
+std::vector<Rendered> render_sequence(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice,
+    std::span<const scene::Camera> cameras, RenderSettings settings)
+{
+    settings.lit = false;
+    std::vector<Rendered> out(cameras.size());
+    Renderer renderer(device, scene, stage, choice, settings);
+    AovCopies aovs(device, stage.view.size, settings.aovs);
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        renderer.look_from(cameras[i]);
+        for (int w = 0; i == 0 && w < settings.warm_up; ++w) renderer.draw(vec2(0), settings.frame_index, nullptr);
+        renderer.draw(vec2(0), settings.frame_index + uint32_t(i), &aovs);
+        renderer.read(aovs, out[i]);
     }
     return out;
 }

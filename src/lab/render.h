@@ -6,8 +6,10 @@
 #include "shadow/lighting.h"
 #include "shadow/technique.h"
 
+#include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,15 @@ struct PassStats {
     int count = 1; ///< passes of that name in a frame, whose times are added up
 };
 
+/// Asked before each timed frame but the first: how many there are, and the least of the technique's own times among them.
+using Again = std::function<bool(int frames, double least_ms)>;
+
 struct RenderSettings {
     int samples = 1; ///< supersampling: pictures averaged, jittered by a Halton sequence; each has a frame number of its own
     int repeats = 1; ///< timed repetitions of the first sample, after one warm-up when more than one
     int warm_up = 0; ///< frames before the timed ones; one at least where there is more than one repetition
     uint32_t frame_index = 0;
+    Again again; ///< where given, says how many frames are timed, instead of `repeats`
     bool count = false; ///< one more frame, in which a technique that can counts its work
     bool lit = true; ///< shade; otherwise only the techniques' images are made
     std::set<std::string> aovs; ///< aov_names()
@@ -52,6 +58,7 @@ struct Rendered {
     std::map<std::string, base::Picture> aovs; ///< of the first sample
     std::vector<PassStats> passes; ///< common and technique's, in order; the technique's begin with its id and "/"
     double technique_ms = 0, technique_deviation = 0; ///< its own passes, all lights together
+    double technique_least_ms = 0; ///< of the timed frames
     std::map<std::string, uint64_t> counts; ///< shadow::Counter by name, all lights together; empty unless asked for
     uint64_t technique_bytes = 0; ///< transients beyond the common ones and the images of the contract
 };
@@ -59,6 +66,11 @@ struct Rendered {
 /// Draws a stage with one technique for all its lights. `scene` is the stage's scene on the device. Throws base::Error with the
 /// technique's reason where it refuses the device or a light.
 Rendered render(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, const RenderSettings&);
+
+/// One technique object through frames that differ in nothing but the camera: images, primitives and aovs of each, neither lit nor timed.
+/// Frame numbers count up from `settings.frame_index`; `settings.warm_up` frames of the first camera go before.
+std::vector<Rendered> render_sequence(
+    gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, std::span<const scene::Camera>, RenderSettings settings);
 
 /// Shades with given images (visibility or transmittance, one a light) instead of a technique's: the lit picture of the truth.
 base::Picture shade_with(

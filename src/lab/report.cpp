@@ -2,7 +2,9 @@
 #include "base/file.h"
 #include "lab/compare.h"
 #include "lab/plot.h"
+#include "lab/sequence.h"
 #include "metrics/metrics.h"
+#include "metrics/temporal.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -142,6 +144,7 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
     data["metrics"].push_back(
         {{"id", "flip"}, {"unit", "0 to 1"}, {"help", "perceived difference of the lit pictures (Andersson et al. 2020)"}});
     add_metrics(data["metrics"], metrics::filter_metrics());
+    add_metrics(data["metrics"], metrics::temporal_metrics());
     data["pictures"] = Json::object();
     const auto add = [&](const Pictures& pictures) {
         for (const auto& [kind, file] : pictures) data["pictures"][file] = base64(base::read_file(folder / file));
@@ -173,6 +176,11 @@ std::string report_page(const Comparison& comparison, const fs::path& folder)
             data["plots"].push_back(svg.substr(svg.find("<svg")));
         else
             data["no_plot"] = refused;
+        const fs::path changes = folder / fmt::format("change.{}.svg", i + 1);
+        if (draw_changes(comparison.runs, lights[i], changes).empty()) {
+            const std::string drawn = base::read_text(changes);
+            data["plots"].push_back(drawn.substr(drawn.find("<svg")));
+        }
     }
     std::string page(report_html);
     const auto put = [&](std::string_view place, std::string_view text) { page.replace(page.find(place), place.size(), text); };

@@ -29,7 +29,7 @@ const detail = new Set(["wrong_outside_band", "acne_outside_band", "leak_outside
 const early = ["flip", "wrong_pixels", "mae"];
 for (const m of [...data.metrics].sort((a, b) => early.indexOf(b.id) - early.indexOf(a.id)))
   if (ran.some(r => has(r.metrics[m.id])))
-    columns.push({ name: m.id, unit: m.unit, of: r => r.metrics && r.metrics[m.id], help: m.help, text: m.unit === "pixels" ? digits(3) : short, detail: detail.has(m.id), plain: m.id === "noise" });
+    columns.push({ name: m.id, unit: m.unit, of: r => r.metrics && r.metrics[m.id], help: m.help, text: m.unit === "pixels" ? digits(3) : short, detail: detail.has(m.id), plain: m.id.endsWith("noise") });
 let sorted = columns.findIndex(c => c.name === "mae"), sign = 1;
 function order(a, b) {
   const x = columns[sorted].of(a), y = columns[sorted].of(b);
@@ -94,6 +94,7 @@ for (const light of lights) {
 $("light").append(...lights.map(l => make("option", { textContent: l })));
 $("lights").hidden = lights.length === 1;
 const kinds = { lit: "lit", visibility: "visibility", error: "signed error" };
+if (data.runs.some(r => r.pictures && r.pictures.change)) kinds.change = "change a frame";
 let kind = "lit", at = { x: 0, y: 0, scale: 1 }, views = [];
 for (const [id, name] of Object.entries(kinds))
   $("kinds").append(make("button", { textContent: name, value: id, onclick: () => { kind = id; drawGrid(); } }), " ");
@@ -102,7 +103,7 @@ function card(name, note, picture, truth, more = []) {
   const view = make("div", { className: "view", tabIndex: views.length ? -1 : 0 });
   view.style.aspectRatio = first.size.join("/");
   view.append(make("img", { src: uri(picture), alt: `${name}, ${kinds[kind]}`, loading: "lazy", decoding: "async" }));
-  if (truth && truth !== picture && kind !== "error")
+  if (truth && truth !== picture)
     view.append(make("img", { src: uri(truth), alt: "", className: "truth", loading: "lazy", decoding: "async" }), make("div", { className: "wipe" }));
   views.push(view);
   return make("figure", {}, view, make("figcaption", {}, make("strong", { textContent: name }), make("span", { className: "faint", textContent: note })), ...more);
@@ -119,7 +120,7 @@ function drawGrid() {
   for (const b of $("kinds").querySelectorAll("button")) b.ariaPressed = String(b.value === kind);
   $("legend").hidden = kind !== "error";
   views = [];
-  const cards = kind === "error" ? [] : truths.map(t => card(truths.length > 1 ? `truth (${t.quantity})` : "truth", "ray traced", t[kind], null));
+  const cards = truths.filter(t => t[kind]).map(t => card(truths.length > 1 ? `truth (${t.quantity})` : "truth", "ray traced", t[kind], null));
   for (const [heading, runs] of groups(shown(ran.filter(r => r.light === light)), false)) {
     if (heading) cards.push(make("h3", { textContent: heading }));
     for (const r of runs) {

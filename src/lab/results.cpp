@@ -7,6 +7,20 @@
 
 namespace gnomon::lab {
 
+namespace {
+
+void add_sequence(nlohmann::ordered_json& out, const SequenceNumbers& sequence)
+{
+    out["sequence"] = {{"motion", sequence.motion}, {"followed", sequence.followed}, {"lost", sequence.lost}, {"moved", sequence.moved}};
+    out["frames"] = nlohmann::ordered_json::array();
+    for (size_t t = 0; t < sequence.mae.size(); ++t) {
+        out["frames"].push_back({{"mae", sequence.mae[t]}});
+        if (t > 0) out["frames"].back()["change"] = sequence.change[t - 1];
+    }
+}
+
+} // namespace
+
 nlohmann::ordered_json run_json(const Run& run)
 {
     nlohmann::ordered_json out = {{"technique", run.technique}, {"scene", run.scene}, {"camera", run.camera}, {"light", run.light},
@@ -27,6 +41,7 @@ nlohmann::ordered_json run_json(const Run& run)
     if (!run.reference_refused.empty()) out["reference_refused"] = run.reference_refused;
     out["scored_pixels"] = run.scored_pixels;
     out["excluded_pixels"] = run.excluded_pixels;
+    if (!run.sequence.motion.empty()) add_sequence(out, run.sequence);
     out["truth"] = {{"samples", run.truth_samples}, {"noise", run.truth_noise}};
     return out;
 }
@@ -60,6 +75,23 @@ std::string filter_table(const Comparison& comparison)
     return out;
 }
 
+/// How the errors change along the motion, where one was given.
+std::string sequence_table(const Comparison& comparison)
+{
+    std::string out;
+    for (const Run& run : comparison.runs) {
+        if (run.sequence.motion.empty()) continue;
+        if (out.empty())
+            out = fmt::format(
+                "\n{:<20} {:<14} {:>9} {:>9} {:>9} {:>9}  {}\n", "technique", "light", "flicker", "swimming", "popping", "noise", "motion");
+        out += fmt::format("{:<20} {:<14}", run.technique, run.light);
+        for (const char* metric : {"flicker", "swimming", "popping", "temporal_noise"})
+            out += fmt::format(" {:>9}", cell(run, metric, "{:.6f}"));
+        out += fmt::format("  {}\n", run.sequence.motion);
+    }
+    return out;
+}
+
 } // namespace
 
 nlohmann::ordered_json results_json(const Comparison& comparison)
@@ -84,7 +116,7 @@ std::string results_table(const Comparison& comparison)
             cell(run, "mae", "{:.5f}"), cell(run, "rms", "{:.5f}"), cell(run, "bias", "{:+.5f}"), cell(run, "flip", "{:.4f}"),
             run.technique_ms, run.technique_deviation, double(run.bytes) / (1024.0 * 1024.0));
     }
-    return out + filter_table(comparison);
+    return out + filter_table(comparison) + sequence_table(comparison);
 }
 
 } // namespace gnomon::lab

@@ -39,23 +39,6 @@ std::vector<uint8_t> edge_band(const Stage& stage, const scene::Light& light, co
     return band;
 }
 
-/// 1 where raster and rays see the same surface.
-std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& raster, Run& out)
-{
-    const base::Picture &depth = raster.aovs.at("depth"), &normal = raster.aovs.at("geometric_normal");
-    std::vector<uint8_t> mask(raster.primitive.size(), 0);
-    for (size_t i = 0; i < mask.size(); ++i) {
-        const bool drawn = raster.primitive[i] != truth::no_primitive, hit = rays.primitive[i] != truth::no_primitive;
-        if (!drawn && !hit) continue;
-        const auto vector = [i](const base::Picture& p) { return vec3(p.values[3 * i], p.values[3 * i + 1], p.values[3 * i + 2]); };
-        const bool coincident = drawn && hit && std::abs(depth.values[i] - rays.depth.values[i]) < 1e-4f * rays.depth.values[i]
-            && glm::dot(vector(normal), vector(rays.normal)) > 0.99985f;
-        mask[i] = drawn && hit && (raster.primitive[i] == rays.primitive[i] || coincident);
-        out.excluded_pixels += !mask[i], out.scored_pixels += mask[i];
-    }
-    return mask;
-}
-
 void score_filter(const FilterReference& filter, base::Picture test, const std::vector<uint8_t>& mask, Run& out)
 {
     out.reference_refused = filter.refused;
@@ -72,6 +55,22 @@ void score_filter(const FilterReference& filter, base::Picture test, const std::
 
 } // namespace
 
+std::vector<uint8_t> score_mask(const truth::Primary& rays, const Rendered& raster, size_t* excluded)
+{
+    const base::Picture &depth = raster.aovs.at("depth"), &normal = raster.aovs.at("geometric_normal");
+    std::vector<uint8_t> mask(raster.primitive.size(), 0);
+    for (size_t i = 0; i < mask.size(); ++i) {
+        const bool drawn = raster.primitive[i] != truth::no_primitive, hit = rays.primitive[i] != truth::no_primitive;
+        if (!drawn && !hit) continue;
+        const auto vector = [i](const base::Picture& p) { return vec3(p.values[3 * i], p.values[3 * i + 1], p.values[3 * i + 2]); };
+        const bool coincident = drawn && hit && std::abs(depth.values[i] - rays.depth.values[i]) < 1e-4f * rays.depth.values[i]
+            && glm::dot(vector(normal), vector(rays.normal)) > 0.99985f;
+        mask[i] = drawn && hit && (raster.primitive[i] == rays.primitive[i] || coincident);
+        if (excluded) *excluded += !mask[i];
+    }
+    return mask;
+}
+
 Run new_run(const Stage& stage, const Choice& choice, const std::string& light)
 {
     Run run;
@@ -85,6 +84,7 @@ void add_times(Run& run, const Rendered& rendered)
 {
     run.passes = rendered.passes, run.bytes = rendered.technique_bytes, run.counts = rendered.counts;
     run.technique_ms = rendered.technique_ms, run.technique_deviation = rendered.technique_deviation;
+    run.technique_least_ms = rendered.technique_least_ms;
 }
 
 truth::Quantity truth_quantity(const Choice& choice)
@@ -114,7 +114,8 @@ FilterReference filter_reference(gpu::Device& device, shadow::SceneGpu& scene, c
 void score(const Stage& stage, const scene::Light& light, const truth::Reference& truth, const Rendered& rendered, Run& out,
     const ScoreOptions& options)
 {
-    const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, out);
+    const std::vector<uint8_t> mask = score_mask(truth.primary, rendered, &out.excluded_pixels);
+    out.scored_pixels = size_t(std::count(mask.begin(), mask.end(), uint8_t(1)));
     const base::Picture test = judged_channels(rendered.images.front(), truth.visibility.mean.channels);
     const bool hard = !light.soft();
     const metrics::Comparison comparison{test, truth.visibility.mean, truth.visibility.variance, mask, hard};

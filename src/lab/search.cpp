@@ -27,7 +27,11 @@ public:
         : options_(options)
         , random_(options.seed)
         , limit_(options.budget * options.places)
+        , order_(options.places)
     {
+        // places of one scene stand together; the first few are to stand for all
+        std::iota(order_.begin(), order_.end(), size_t(0));
+        std::shuffle(order_.begin(), order_.end(), random_);
     }
 
     SearchResult run()
@@ -61,29 +65,41 @@ private:
         return all[place];
     }
 
-    /// The mean over `places`, or, where the sum so far already loses against `bound`, that sum over all of them.
-    std::optional<Reading> over(const Point& point, const std::vector<size_t>& places, const Reading* bound = nullptr)
+    /// The mean over the first `count` places.
+    std::optional<Reading> over(const Point& point, size_t count)
     {
-        Reading sum;
-        for (const size_t place : places) {
-            const std::optional<Reading> one = at(point, place);
+        Reading mean;
+        for (size_t i = 0; i < count; ++i) {
+            const std::optional<Reading> one = at(point, order_[i]);
             if (!one) return {};
-            sum.value += one->value / double(places.size()), sum.violation += one->violation / double(places.size());
-            if (bound && !better(sum, *bound)) break;
+            mean.value += one->value / double(count), mean.violation += one->violation / double(count);
         }
-        return sum;
+        return mean;
     }
 
-    std::vector<size_t> places(size_t count) const
+    /// Whether `point`, read at the first `count` places, loses against `from`: it breaks more constraints than `from` at all places, or
+    /// lies above it by more than the deviation of their differences allows. Where they are all 0, the parameter that was moved has no
+    /// effect: another one switches it off.
+    bool loses(const Point& point, const Point& from, const Reading& reading, size_t count)
     {
-        std::vector<size_t> out(count);
-        std::iota(out.begin(), out.end(), size_t(0));
-        return out;
+        double violation = 0, mean = 0, squares = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const Reading now = *at(point, order_[i]), before = *at(from, order_[i]);
+            violation += now.violation / double(options_.places);
+            mean += (now.value - before.value) / double(count);
+            squares += (now.value - before.value) * (now.value - before.value) / double(count);
+        }
+        if (violation > reading.violation) return true;
+        constexpr size_t least = 3; // fewer have no deviation to speak of
+        if (count < least || violation < reading.violation || reading.violation > 0) return false;
+        const double freedom = double(count - 1),
+                     quantile = 2.0 + 9.0 / (freedom * freedom); // Student's, one side of 2.5 %, within a tenth
+        return mean >= quantile * std::sqrt(std::max(0.0, squares - mean * mean) / freedom);
     }
 
     std::optional<Reading> at_all(const Point& point)
     {
-        const std::optional<Reading> reading = over(point, places(options_.places));
+        const std::optional<Reading> reading = over(point, options_.places);
         if (reading) keep(point, *reading);
         return reading;
     }
@@ -93,13 +109,10 @@ private:
         if (!best_.empty() && !better(reading, best_reading_)) return;
         const bool first = best_.empty();
         best_ = point, best_reading_ = reading;
-        // where the incumbent is worst, a worse one shows first
-        order_ = places(options_.places);
-        std::stable_sort(order_.begin(), order_.end(), [&](size_t a, size_t b) { return at(point, a)->value > at(point, b)->value; });
         if (!first && options_.improved) options_.improved(point, reading);
     }
 
-    Reading known(const Point& point) { return *over(point, places(options_.places)); }
+    Reading known(const Point& point) { return *over(point, options_.places); }
 
     /// How many places each round of halving has.
     std::vector<size_t> rounds() const
@@ -118,12 +131,14 @@ private:
         std::uniform_real_distribution<double> uniform;
         std::vector<double> offset(dimensions), step(dimensions);
         for (size_t d = 0; d < dimensions; ++d) offset[d] = uniform(random_), step[d] = std::pow(even_ratio(dimensions), -double(d + 1));
+        constexpr size_t few = 6;
         std::vector<Point> out;
         for (size_t i = 0; i < count; ++i) {
             Point p = options_.start;
             for (size_t d = 0; d < dimensions; ++d) {
                 const double turn = offset[d] + double(i + 1) * step[d];
-                const bool changed = i % 2 == 0 || uniform(random_) < 2.0 / double(dimensions);
+                // among many axes, a point that changes all is next to never a good one
+                const bool changed = (i % 2 == 0 && dimensions <= few) || uniform(random_) < 2.0 / double(dimensions);
                 if (changed) p[d] = options_.axes[d].value(turn - std::floor(turn));
             }
             if (std::find(out.begin(), out.end(), p) == out.end()) out.push_back(p);
@@ -138,7 +153,7 @@ private:
         for (size_t r = 0; r < round.size(); ++r) {
             std::vector<std::pair<Reading, Point>> read;
             for (Point& p : points)
-                if (const std::optional<Reading> reading = over(p, places(round[r]))) read.emplace_back(*reading, std::move(p));
+                if (const std::optional<Reading> reading = over(p, round[r])) read.emplace_back(*reading, std::move(p));
             std::stable_sort(read.begin(), read.end(), [](const auto& a, const auto& b) { return better(a.first, b.first); });
             if (r + 1 < round.size()) read.resize(std::min(read.size(), (read.size() + 2) / 3));
             points.clear();
@@ -152,8 +167,10 @@ private:
     bool step(Point& from, Reading& reading, const Point& to)
     {
         if (to == from) return false;
-        const std::optional<Reading> found = over(to, order_, &reading);
-        if (!found || !better(*found, reading)) return false;
+        for (size_t i = 0; i < order_.size(); ++i)
+            if (!at(to, order_[i]) || loses(to, from, reading, i + 1)) return false;
+        const std::optional<Reading> found = over(to, order_.size());
+        if (!better(*found, reading)) return false;
         from = to, reading = *found;
         keep(to, *found);
         return true;
@@ -180,7 +197,8 @@ private:
         Reading reading = known(seed);
         for (double size = 0.25; size > 1.0 / 256.0 && !spent();) {
             const Point before = point;
-            std::vector<size_t> order = places(options_.axes.size());
+            std::vector<size_t> order(options_.axes.size());
+            std::iota(order.begin(), order.end(), size_t(0));
             std::shuffle(order.begin(), order.end(), random_);
             for (const size_t d : order) step_along(point, reading, d, size);
             if (point == before) {
@@ -203,7 +221,7 @@ private:
     std::map<Point, std::vector<std::optional<Reading>>> seen_;
     Point best_;
     Reading best_reading_;
-    std::vector<size_t> order_; ///< of places
+    std::vector<size_t> order_; ///< in which places are read
 };
 
 } // namespace

@@ -42,7 +42,7 @@ using Point = std::vector<double>; ///< a value for each axis
 
 /// What was measured at one place, or the mean over all.
 struct Reading {
-    double value = 0; ///< never negative: a point is given up as soon as a part of its places exceeds the best one's sum
+    double value = 0;
     double violation = 0; ///< how far a constraint is missed; 0 = it is kept
 };
 /// Whoever keeps the constraints wins, then who misses them less, then the smaller value.
@@ -63,9 +63,11 @@ struct SearchResult {
     size_t readings = 0;
 };
 
-/// Half of the budget is for points that cover the space evenly (a Roberts sequence; every second one differs from the start in about two
-/// axes only), measured at few places first, of which the better third goes on to more; the rest for a pattern search (Hooke and Jeeves
-/// 1961) from the best of them. The same options give the same points.
+/// Half of the budget is for points that cover the space evenly (a Roberts sequence; every second one, and with more than six axes each,
+/// differs from the start in about two axes only), measured at few places first, of which the better third goes on to more; the rest for a
+/// pattern search (Hooke and Jeeves 1961) from the best of them, each step of which is a race: places are read in a shuffled order, and the
+/// step is given up once Student's test of the differences so far puts it above its origin (as in F-Race, Birattari et al.
+/// 2002), which is at once where they are all 0, because another parameter switches this one off. The same options give the same points.
 SearchResult search(const SearchOptions&);
 
 } // namespace gnomon::lab

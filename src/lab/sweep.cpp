@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "lab/compare.h"
 #include "lab/experiment_expand.h"
+#include "lab/sequence.h"
 #include "metrics/metrics.h"
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ public:
             out.metrics["flip"] = metrics::flip(display(rendered.radiance, stage_), judge.lit);
         }
         add_times(out, rendered);
+        if (!cell.motion.empty()) sequence_of(cell).measure(cell.choice, out);
         return out;
     }
 
@@ -65,7 +67,7 @@ private:
     void aim(const Cell& cell)
     {
         if (stage_text(cell) == aimed_) return;
-        judges_.clear(), references_.clear();
+        judges_.clear(), references_.clear(), sequences_.clear();
         if (scene_text(cell) != opened_) {
             scene_.reset();
             stage_ = open_stage(cell.stage);
@@ -86,6 +88,17 @@ private:
         return found->second;
     }
 
+    Sequence& sequence_of(const Cell& cell)
+    {
+        const auto found = sequences_.find(cell.motion);
+        if (found != sequences_.end()) return found->second;
+        return sequences_
+            .emplace(cell.motion,
+                Sequence(device_, *scene_, stage_, cell.stage, parse_motion(cell.motion),
+                    {experiment_.truth_samples, experiment_.frame_index, truth_cache_}))
+            .first->second;
+    }
+
     const FilterReference& reference_of(const Choice& choice)
     {
         const std::string text = choice_text(choice);
@@ -101,6 +114,7 @@ private:
     std::string opened_, aimed_;
     std::map<truth::Quantity, Judge> judges_;
     std::map<std::string, FilterReference> references_;
+    std::map<std::string, Sequence> sequences_; ///< by motion
 };
 
 Json result_line(const Experiment& experiment, const Cell& cell, const Run& run, const Provenance& made)

@@ -2,29 +2,16 @@
 #include "lab/tune.h"
 
 #include "base/error.h"
-#include "base/hash.h"
-#include "base/line_file.h"
 #include "base/progress.h"
-#include "lab/goal.h"
-#include "lab/meter.h"
 #include "lab/search_space.h"
-
-#include <nlohmann/json.hpp>
+#include "lab/tune_runs.h"
 
 #include <algorithm>
-#include <set>
+#include <optional>
 
 namespace gnomon::lab {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// What is kept of one run.
-struct Kept {
-    std::map<std::string, double> values; ///< quantities of the goal
-    std::map<std::string, double> reference; ///< the same of the search's start, measured just before; only what ratios need
-};
 
 class Tuner {
 public:
@@ -33,13 +20,11 @@ public:
         , options_(options)
         , base_(parse_choice(options.technique))
         , meter_(device, {.truth_samples = options.truth_samples, .reference = options.reference, .truth_cache = options.truth_cache})
-        , sum_(parse_sum(options.minimise))
+        , terms_(parse_terms(options.minimise))
+        , under_(constraints(options))
         , vary_(varied())
         , space_(base_.params, vary_)
     {
-        for (const std::string& text : options.under) under_.push_back(parse_constraint(text));
-        for (const std::string& q : sum_) note(q, is_cost(q));
-        for (const Constraint& c : under_) note(c.quantity, c.relative);
         if (options.preset.extension() != ".json") base::fail("'{}' is no .json file; name the preset so", options.preset.string());
         if (options.budget < 1) base::fail("a budget of {} evaluations allows none; take at least 1", options.budget);
         if (options.tuning.empty())
@@ -47,8 +32,8 @@ public:
         for (const StageOptions& stage : options.tuning) add(stage, true);
         tuning_places_ = meter_.places();
         for (const StageOptions& stage : options.validation) add(stage, false);
-        file_.emplace(std::filesystem::path(options.preset).replace_extension(".runs.jsonl"));
-        for (const std::string& line : file_->lines()) take(line);
+        runs_.emplace(device, meter_, base_, TuneRuns::Goal{terms_, under_, options.reference},
+            std::filesystem::path(options.preset).replace_extension(".runs.jsonl"));
     }
 
     Tuned run()
@@ -65,15 +50,26 @@ public:
             .measure = [this, &start](const Point& p, size_t place) { return read(p, place, p == start); },
             .improved =
                 [this](const Point& p, const Reading& r) {
-                    if (r.violation == 0) write_preset(options_.preset, preset(p, {}));
+                    if (r.violation > 0) return;
+                    incumbents_.push_back(p);
+                    if (options_.validation.empty()) write_preset(options_.preset, preset(p));
                 }});
         if (found.reading.violation > 0) refuse(found);
-        Tuned out{preset(found.best, validated(start, found.best)), better(found.reading, found.start), measured_, from_file_};
-        write_preset(options_.preset, out.preset);
+        Tuned out{preset(found.best), better(found.reading, found.start), true, 0, 0};
+        if (!options_.validation.empty()) validate(start, out);
+        if (out.written) write_preset(options_.preset, out.preset);
+        out.measured = runs_->measured(), out.kept = runs_->from_file();
         return out;
     }
 
 private:
+    static std::vector<Constraint> constraints(const TuneOptions& options)
+    {
+        std::vector<Constraint> out;
+        for (const std::string& text : options.under) out.push_back(parse_constraint(text));
+        return out;
+    }
+
     std::vector<std::string> varied() const
     {
         if (!options_.vary.empty()) return options_.vary;
@@ -85,13 +81,6 @@ private:
         return out;
     }
 
-    void note(const std::string& quantity, bool relative)
-    {
-        if (std::find(quantities_.begin(), quantities_.end(), quantity) == quantities_.end()) quantities_.push_back(quantity);
-        if (relative) relative_.push_back(quantity);
-        if (quantity == "time") repeats_ = 3;
-    }
-
     void add(StageOptions stage, bool tuning)
     {
         stage.kinds = base_.info->lights;
@@ -101,86 +90,40 @@ private:
             base::fail("{} may not be tuned on: it is a scene of published tables; a scene file with \"tuning\": true may "
                        "(docs/scene-files.md), or give it to --validate",
                 stage.scene);
-        if (!tuning && opened.scene.tuning)
-            base::fail("{} is a scene for tuning and says nothing about others; validate on scenes without \"tuning\": true", stage.scene);
+        if (!tuning && (opened.scene.tuning || !opened.scene.validation))
+            base::fail("{} may not decide what is kept: it is a scene {}; validate on scene files with \"validation\": true, as "
+                       "experiments/validation/*.json",
+                stage.scene, opened.scene.tuning ? "for tuning" : "of published tables");
         if (const std::string reason = unmeasurable(base_, device_, opened.lights.front()); !reason.empty()) base::fail("{}", reason);
     }
 
-    std::string key(const Choice& choice, size_t place)
-    {
-        if (keys_.size() <= place) keys_.resize(meter_.places());
-        if (keys_[place].empty()) keys_[place] = meter_.key(place);
-        base::Hasher h;
-        h.text("tune 1").text(keys_[place]).text(choice.info->id).text(choice.params.json().dump()).text(base_.params.json().dump());
-        h.text(options_.reference).text(device_.info().name).text(device_.info().driver).text(commit()).value(repeats_);
-        for (const std::string& q : quantities_) h.text(q);
-        return h.hex();
-    }
-
-    void take(const std::string& line)
-    {
-        const Json json = Json::parse(line, nullptr, false);
-        if (!json.is_object() || !json.contains("key") || !json.contains("values") || !json.contains("reference"))
-            base::fail("{} holds a line that is no measurement of this search: {}; delete the file or name another preset",
-                std::filesystem::path(options_.preset).replace_extension(".runs.jsonl").string(), line.substr(0, 60));
-        known_[json["key"].get<std::string>()] = {json["values"], json["reference"]};
-        of_file_.insert(json["key"].get<std::string>());
-    }
-
-    /// Of the file, else measured now; nothing where the device could not run this setting.
-    const Kept& kept(const Choice& choice, size_t place, bool start)
-    {
-        const std::string k = key(choice, place);
-        const auto found = known_.find(k);
-        if (found != known_.end()) {
-            from_file_ += of_file_.erase(k);
-            return found->second;
-        }
-        Kept now;
-        try {
-            Run reference;
-            if (!relative_.empty()) reference = meter_.measure_time(place, base_, repeats_);
-            const Run run = meter_.measure(place, choice, repeats_);
-            for (const std::string& q : quantities_) now.values[q] = quantity_of(run, q);
-            for (const std::string& q : relative_)
-                now.reference[q] = is_cost(q) ? quantity_of(reference, q) : start ? now.values[q] : kept(base_, place, true).values.at(q);
-        } catch (const base::Error&) {
-            // a setting may ask for more memory than there is; that the search's start cannot run is the caller's fault
-            if (start) throw;
-            now = {};
-        }
-        ++measured_;
-        file_->append(
-            Json{{"key", k}, {"choice", choice_text(choice)}, {"place", place}, {"values", now.values}, {"reference", now.reference}}
-                .dump());
-        return known_[k] = std::move(now);
-    }
-
-    double sum(const Kept& kept) const
+    double sum(const std::vector<std::string>& term, const TuneRuns::Kept& kept) const
     {
         double out = 0;
-        for (const std::string& q : sum_) out += is_cost(q) ? ratio(kept.values.at(q), kept.reference.at(q)) : kept.values.at(q);
+        for (const std::string& q : term) out += is_cost(q) ? TuneRuns::ratio(kept.values.at(q), kept.reference.at(q)) : kept.values.at(q);
         return out;
     }
 
-    static double ratio(double value, double by) { return by > 0 ? value / by : value > 0 ? 1e6 : 1.0; }
-
-    double missed(const Constraint& c, const Kept& kept) const
+    /// As parts of what the start errs there, so that no scene outweighs the others. Both get an addend, a thousandth of the picture's
+    /// pixels: what errs less is all right, and ratios of a few pixels are noise.
+    std::vector<double> ratios_of(const TuneRuns::Kept& now, const TuneRuns::Kept& start) const
     {
-        const double limit = c.relative ? c.limit * kept.reference.at(c.quantity) : c.limit;
-        return missed_by(kept.values.at(c.quantity), limit);
+        constexpr double few = 1e-3;
+        std::vector<double> out;
+        for (const std::vector<std::string>& term : terms_) out.push_back((sum(term, now) + few) / (sum(term, start) + few));
+        return out;
     }
 
     Reading read(const Point& point, size_t place, bool start)
     {
-        const Kept& k = kept({base_.info, space_.params(point)}, place, start);
+        const TuneRuns::Kept& k = runs_->at({base_.info, space_.params(point)}, place, start);
         progress_->advance();
         if (k.values.empty()) return {0, 1e6};
-        // As parts of what the start errs there, so that no scene outweighs the others; the addend is a few pixels' worth where that is
-        // nothing.
-        constexpr double few = 1e-4;
-        Reading out{(sum(k) + few) / (sum(kept(base_, place, true)) + few), 0};
-        for (const Constraint& c : under_) out.violation += missed(c, k);
+        Reading out;
+        for (const Constraint& c : under_)
+            if (k.values.count(c.quantity)) out.violation += TuneRuns::missed(c, k);
+        if (std::any_of(terms_.begin(), terms_.end(), [&](const auto& term) { return !k.values.count(term.front()); })) return out;
+        for (const double r : ratios_of(k, runs_->at(base_, place, true))) out.value += r / double(terms_.size());
         return out;
     }
 
@@ -188,27 +131,41 @@ private:
     {
         std::vector<Preset::Place> out;
         for (size_t i = from; i < to; ++i) {
-            const Kept before = kept(base_, i, true), now = kept(after, i, false);
-            if (now.values.empty()) base::fail("{} cannot run on every scene of the validation", choice_text(after));
+            const TuneRuns::Kept before = runs_->at(base_, i, true), now = runs_->at(after, i, false);
             const Stage& stage = meter_.stage(i);
-            Preset::Place place{stage.scene_name, stage.camera.name, meter_.light_name(i), stage.view.size, sum(before), sum(now)};
-            if (now.reference.count("time")) place.time_ratio = ratio(now.values.at("time"), now.reference.at("time"));
+            Preset::Place place{
+                stage.scene_name, stage.camera.name, meter_.light_name(i), stage.view.size, {}, {}, ratios_of(now, before), 0};
+            for (const std::vector<std::string>& term : terms_)
+                for (const std::string& q : term) place.before[q] = before.values.at(q), place.after[q] = now.values.at(q);
+            if (now.reference.count("time")) place.time_ratio = TuneRuns::ratio(now.values.at("time"), now.reference.at("time"));
             out.push_back(place);
         }
         return out;
     }
 
-    std::vector<Preset::Place> validated(const Point& start, const Point& best)
+    /// Early stopping: of the settings that were the best in turn and gain in validation, the one that errs least there. The later ones
+    /// fit the scenes of the search more closely, and others not always. Where none gains, the one that errs least.
+    void validate(const Point& start, Tuned& out)
     {
-        for (size_t i = tuning_places_; i < meter_.places(); ++i) read(start, i, true), read(best, i, best == start);
-        return places({base_.info, space_.params(best)}, tuning_places_, meter_.places());
+        std::optional<std::pair<bool, double>> best; // no gain, and the ratio
+        for (size_t i = tuning_places_; i < meter_.places(); ++i) read(start, i, true);
+        for (const Point& point : incumbents_) {
+            double violation = 0;
+            for (size_t i = tuning_places_; i < meter_.places(); ++i) violation += read(point, i, false).violation;
+            if (violation > 0) continue;
+            Preset now = preset(point);
+            now.validation = places(now.choice, tuning_places_, meter_.places());
+            const Ratios found = ratios(now.validation);
+            if (const std::pair rank{!found.gained(), found.mean}; !best || rank < *best) best = rank, out.preset = std::move(now);
+        }
+        out.written = best && !best->first;
     }
 
-    Preset preset(const Point& point, std::vector<Preset::Place> validation)
+    Preset preset(const Point& point)
     {
         Preset out{.choice = {base_.info, space_.params(point)}, .vary = vary_, .minimise = options_.minimise, .under = options_.under};
         out.reference = options_.reference;
-        out.tuning = places(out.choice, 0, tuning_places_), out.validation = std::move(validation);
+        out.tuning = places(out.choice, 0, tuning_places_);
         out.evaluations = size_t(options_.budget), out.seed = options_.seed;
         out.device = device_.info().name, out.driver = device_.info().driver, out.commit = commit();
         return out;
@@ -220,8 +177,8 @@ private:
         std::string misses;
         for (const Constraint& c : under_)
             for (size_t i = 0; i < tuning_places_; ++i) {
-                const Kept k = kept(nearest, i, false);
-                if (k.values.empty() || missed(c, k) == 0) continue;
+                const TuneRuns::Kept k = runs_->at(nearest, i, false);
+                if (!k.values.count(c.quantity) || TuneRuns::missed(c, k) == 0) continue;
                 misses += fmt::format("{}{} is {} in {}", misses.empty() ? "" : "; ", c.quantity,
                     quantity_text(c.quantity, k.values.at(c.quantity)), meter_.stage(i).scene_name);
                 break;
@@ -234,46 +191,18 @@ private:
     const TuneOptions& options_;
     Choice base_;
     Meter meter_;
-    std::vector<std::string> sum_, vary_, quantities_, relative_;
+    std::vector<std::vector<std::string>> terms_;
     std::vector<Constraint> under_;
+    std::vector<std::string> vary_;
     SearchSpace space_;
     size_t tuning_places_ = 0;
-    int repeats_ = 1;
-    std::optional<base::LineFile> file_;
-    std::map<std::string, Kept> known_;
-    std::vector<std::string> keys_;
+    std::vector<Point> incumbents_; ///< those that were the best in turn and keep all bounds
+    std::optional<TuneRuns> runs_;
     base::Progress* progress_ = nullptr;
-    size_t measured_ = 0, from_file_ = 0;
-    std::set<std::string> of_file_; ///< keys not asked for yet
 };
 
 } // namespace
 
-std::vector<std::string> set_names(const std::string& choice)
-{
-    std::vector<std::string> out;
-    for (size_t at = choice.find(':'); at != std::string::npos; at = choice.find(':', at + 1))
-        out.push_back(choice.substr(at + 1, choice.find('=', at) - at - 1));
-    return out;
-}
-
 Tuned tune(gpu::Device& device, const TuneOptions& options) { return Tuner(device, options).run(); }
-
-std::string tune_text(const Tuned& tuned)
-{
-    const Preset& p = tuned.preset;
-    std::string out = fmt::format("{} after {} evaluations: {}\n", p.minimise, p.evaluations, choice_text(p.choice));
-    const auto table = [&](const char* title, const std::vector<Preset::Place>& places) {
-        if (places.empty()) return;
-        out += fmt::format("  {:<44} {:>9} {:>9}\n", title, "before", "after");
-        for (const Preset::Place& place : places)
-            out += fmt::format("  {:<44} {:9.6f} {:9.6f}\n", place.scene + ", " + place.light, place.before, place.after);
-        out += fmt::format("  {:<44} {:9.6f} {:9.6f}\n", "mean", mean_before(places), mean_after(places));
-    };
-    table("tuned on", p.tuning);
-    table("held out", p.validation);
-    if (!tuned.improved) out += "nothing better than the start was found\n";
-    return out;
-}
 
 } // namespace gnomon::lab

@@ -132,4 +132,16 @@ void animate(Document& document, std::vector<Node>& nodes, double time)
     for (size_t i = 0; i < count; ++i) animate_one(document, document.element("animations", i), nodes, time);
 }
 
+double animation_seconds(Document& document)
+{
+    double longest = 0;
+    for (size_t i = 0; i < document.count("animations"); ++i) {
+        const Value samplers = document.element("animations", i).find("samplers");
+        for (size_t k = 0; k < samplers.size(); ++k)
+            document.recover(
+                "it is left out", [&] { longest = std::max(longest, double(read_times(document, samplers[k].at("input")).back())); });
+    }
+    return longest;
+}
+
 } // namespace gnomon::scene::gltf

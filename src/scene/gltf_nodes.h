@@ -28,6 +28,7 @@ std::vector<Node> read_nodes(Document&);
 /// Sets translations, rotations, scales and weights to their values at `time`: every animation of the file plays, in its order,
 /// and repeats after its last key.
 void animate(Document&, std::vector<Node>&, double time);
+double animation_seconds(Document&); ///< of the longest animation; 0: there is none
 
 /// Fills Node::world.
 void compose(std::vector<Node>&);

@@ -79,7 +79,8 @@ struct Scene {
     std::vector<Light> lights; ///< the scene's own (glTF, scene JSON)
     std::vector<Camera> cameras; ///< likewise
     std::vector<std::string> warnings; ///< what the loader repaired or skipped, one sentence each
-    bool tuning = false; ///< `tune` may use it; then published tables may not
+    bool tuning = false; ///< `tune` may search on it; then published tables may not use it
+    bool validation = false; ///< it may decide what `tune` keeps; neither may be in tables
 
     Bounds bounds() const; ///< of all instances, world space
     size_t triangle_count() const; ///< as placed

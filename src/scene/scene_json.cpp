@@ -162,7 +162,7 @@ Scene load_scene_json(const std::filesystem::path& path, const LoadOptions& opti
 {
     const nlohmann::json json = read_json(path);
     const JsonReader file(json, path.string());
-    file.check_keys(Keys{"model", "detail", "time", "gltf_scene", "tuning", "cameras", "lights", "materials"});
+    file.check_keys(Keys{"model", "detail", "time", "gltf_scene", "tuning", "validation", "cameras", "lights", "materials"});
     const LoadOptions defaults;
     LoadOptions inner;
     inner.time = chosen(file, "time", options.time, defaults.time, 0.0, 1e9);
@@ -177,6 +177,7 @@ Scene load_scene_json(const std::filesystem::path& path, const LoadOptions& opti
     Scene scene = load(builtin ? model : (path.parent_path() / model).string(), inner);
     scene.name = path.stem().string();
     if (file.has("tuning")) scene.tuning = file.at("tuning").truth();
+    if (file.has("validation")) scene.validation = file.at("validation").truth();
     merge(scene.cameras, file, "cameras", read_camera);
     merge(scene.lights, file, "lights", [&](const JsonReader& r, size_t i) { return read_light(r, i, path.parent_path()); });
     if (file.has("materials")) change_materials(scene, file.at("materials"));

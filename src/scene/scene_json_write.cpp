@@ -128,6 +128,7 @@ std::string scene_json_text(const Scene& scene, std::string_view model, const Lo
     if (options.time != defaults.time) json["time"] = options.time;
     if (options.gltf_scene != defaults.gltf_scene) json["gltf_scene"] = options.gltf_scene;
     if (scene.tuning) json["tuning"] = true;
+    if (scene.validation) json["validation"] = true;
     json["cameras"] = Json::array();
     for (const Camera& camera : scene.cameras) json["cameras"].push_back(camera_json(camera));
     json["lights"] = Json::array();

@@ -47,6 +47,14 @@ struct Counter {
     uint32_t offset = 0; ///< of a uint, in bytes
 };
 
+/// What a technique found on its way to its image, a number for each pixel, for people to look at.
+struct Inspection {
+    std::string name; ///< in words joined by underscores: penumbra, page
+    std::string unit; ///< "m" where it is a length, which can be shown in pixels too; "" of plain numbers
+    bool label = false; ///< whole numbers that tell things apart and need a colour each; false: a quantity
+    gpu::ImageId image; ///< r32f, size of the view; negative where there is nothing to say
+};
+
 /// Everything a technique may read, and the one image that it writes. Valid during `record`.
 struct Frame {
     const scene::Scene& scene;
@@ -60,7 +68,12 @@ struct Frame {
     parts::LightMap* light_map = nullptr; ///< where given, a technique that looks its shadows up in one light map leaves it here
     std::vector<Counter>* counters = nullptr; ///< where given, a technique that `counts` counts its work and leaves the numbers here;
                                               ///< such frames are not timed
+    std::vector<Inspection>* inspections = nullptr; ///< where given, a technique that has such images draws them too and leaves them here;
+                                                    ///< its output stays the same; such frames are not timed
 };
+
+/// An image for an Inspection of this frame.
+gpu::ImageId inspection_image(gpu::PassList&, const Frame&);
 
 /// One algorithm for one scene and one light, with what it keeps between frames (a member; a new scene or light is a new object).
 class Technique {

@@ -73,7 +73,8 @@ private:
                 {noise ? passes.import(noise_) : frame.gbuffer.depth, gpu::Use::sample},
                 gpu::Binding(pyramid ? parts::build_min_max_pyramid(passes, soft.map.depth) : soft.map.depth, gpu::Use::sample)
                     .as(VK_IMAGE_VIEW_TYPE_2D_ARRAY),
-                gpu::Binding(sums, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)});
+                gpu::Binding(sums, gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY)},
+            true);
     }
 
     static gpu::ImageId make_sums(gpu::PassList& passes, const Frame& frame, const parts::LightMap& map, ResolveConstants& c)

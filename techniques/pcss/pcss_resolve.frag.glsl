@@ -95,7 +95,9 @@ float soft_visibility(SoftPoint p)
     if (whole >= 0.0) return p.horizon * whole;
     const vec2 found = search_window(layer, p.layer, plane, searched);
     if (found.y <= 0.0) return p.horizon;
-    const vec2 half_size = clamp(window_half_width(layer, p.light, m.depth, found.x / found.y), vec2(0.5 * c.params.least), vec2(0.5 * float(c.params.cap)));
+    const vec2 shadow = window_half_width(layer, p.light, m.depth, found.x / found.y);
+    estimate_penumbra(p, shadow);
+    const vec2 half_size = clamp(shadow, vec2(0.5 * c.params.least), vec2(0.5 * float(c.params.cap)));
     float lit = shortcut == PCSS_SHORTCUT_NONE ? -1.0 : whole_window(window_depths(p.layer, plane.at, half_size), plane, half_size);
     if (lit < 0.0) lit = filtering == PCSS_FILTER_SUMS ? sums_window(layer, p, half_size) : filter_window(p.layer, plane, half_size);
     return p.horizon * lit;

@@ -170,17 +170,25 @@ void VirtualShadowMap::draw(gpu::PassList& passes, const Frame& frame, const Wor
 
 void VirtualShadowMap::resolve(gpu::PassList& passes, const Frame& frame, const Params& params, const Work& w, gpu::ImageId wanted)
 {
-    const gpu::SpecConstant modes[]
-        = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(params.show)}, {3, uint32_t(params.bias_cone > 0.0f)}};
-    passes.fullscreen({.name = "resolve",
-        .program
-        = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_resolve.frag", modes),
-        .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {wanted, gpu::Use::sample},
-            gpu::Binding(passes.import(pool_), gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {w.table, gpu::Use::load},
-            {w.counts, gpu::Use::load}},
-        .constants
-        = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()), grid_, params},
-        .colors = {{frame.output}}});
+    const auto draw = [&](const char* name, int show, gpu::ImageId target) {
+        const gpu::SpecConstant modes[]
+            = {{0, uint32_t(params.pcf)}, {1, uint32_t(params.bilinear)}, {2, uint32_t(show)}, {3, uint32_t(params.bias_cone > 0.0f)}};
+        passes.fullscreen({.name = name,
+            .program
+            = &device_.raster_program("shaders/fullscreen.vert", "techniques/virtual_shadow_map/virtual_shadow_map_resolve.frag", modes),
+            .bindings = {{frame.gbuffer.depth, gpu::Use::sample}, {frame.gbuffer.normal, gpu::Use::sample}, {wanted, gpu::Use::sample},
+                gpu::Binding(passes.import(pool_), gpu::Use::sample).as(VK_IMAGE_VIEW_TYPE_2D_ARRAY), {w.table, gpu::Use::load},
+                {w.counts, gpu::Use::load}},
+            .constants = ResolveConstants{view_constants(frame.view, frame.index), light_constants(frame.light, frame.resources.bounds()),
+                grid_, params},
+            .colors = {{target}}});
+    };
+    draw("resolve", params.show, frame.output);
+    if (!frame.inspections) return;
+    for (const auto& [name, show] : {std::pair{"page", VIRTUAL_INSPECT_PAGE}, {"level", VIRTUAL_INSPECT_LEVEL}}) {
+        frame.inspections->push_back({name, "", true, inspection_image(passes, frame)});
+        draw("inspect pages", show, frame.inspections->back().image);
+    }
 }
 
 void VirtualShadowMap::record_with(gpu::PassList& passes, const Frame& frame, const Params& params)

@@ -9,6 +9,9 @@
 #define VIRTUAL_RUN 256 // table entries that one invocation looks through for new pages
 #define VIRTUAL_SHOW_LEVEL 1
 #define VIRTUAL_SHOW_FOOTPRINT 2
+// and, for inspections alone
+#define VIRTUAL_INSPECT_PAGE 3
+#define VIRTUAL_INSPECT_LEVEL 4
 
 TECHNIQUE_BEGIN(virtual_shadow_map)
 

@@ -25,7 +25,10 @@ layout(location = 0) out float visibility;
 void main()
 {
     Receiver r;
-    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) return;
+    if (!find_hard_receiver(c.view, c.light, depth_image, normal_image, gl_FragCoord.xy, r, visibility)) {
+        if (show >= VIRTUAL_INSPECT_PAGE) visibility = -1.0;
+        return;
+    }
     const int face = c.grid.layout_kind == LIGHT_MAP_CUBE ? select_cube_layer(c.grid.centre, mat3(1.0), r.p_world) : 0;
     const LightMapLayer layer = c.grid.face[face];
     MapPoint m = project(layer, r.p_world);
@@ -39,8 +42,16 @@ void main()
         visibility = clamp(0.5 + 0.1 * (wanted - float(level)), 0.0, 1.0);
         return;
     }
+    if (show == VIRTUAL_INSPECT_LEVEL) {
+        visibility = float(level);
+        return;
+    }
     const ivec2 page = page_at(m.uv, level);
     const int slot = int(table[entry_of(face, level, page)]) - 1;
+    if (show == VIRTUAL_INSPECT_PAGE) {
+        visibility = float(slot);
+        return;
+    }
 
     // the page's texels are those of a map of this size
     const float size = float(c.grid.page << level);

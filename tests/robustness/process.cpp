@@ -86,7 +86,7 @@ Finished run_gnomon(const std::vector<std::string>& arguments, const fs::path& f
     while (::wait4(child, &status, WNOHANG, &usage) == 0) {
         f.timed_out = elapsed() > options.seconds;
         if (f.timed_out || (options.kill_when && options.kill_when())) {
-            ::kill(child, f.timed_out ? SIGKILL : options.kill_signal);
+            ::kill(child, f.timed_out ? SIGKILL : options.signal);
             ::wait4(child, &status, 0, &usage);
             break;
         }

@@ -15,8 +15,8 @@ struct RunOptions {
     std::map<std::string, std::string> environment; ///< beyond the test's own
     uint64_t memory = 0; ///< bytes of address space; 0 = no limit
     double seconds = 60; ///< then it is killed: generous, because tests share the machine
-    std::function<bool()> kill_when; ///< asked every millisecond; the signal is sent when true
-    int kill_signal = 9;
+    std::function<bool()> kill_when; ///< asked every millisecond; it gets the signal below when true
+    int signal = 9;
 };
 
 struct Finished {

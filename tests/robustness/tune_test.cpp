@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace gnomon::tests {
@@ -16,6 +17,8 @@ void write_scene(const Scratch& scratch)
 {
     std::ofstream(scratch / "yard.json")
         << R"({"model": "balls", "tuning": true, "lights": [{"name": "noon", "type": "directional", "direction": [0.4, -1, 0.2]}]})";
+    std::ofstream(scratch / "room.json")
+        << R"({"model": "contact", "validation": true, "lights": [{"name": "dusk", "type": "directional", "direction": [1, -0.7, 0.2]}]})";
 }
 
 std::vector<std::string> tuning(std::vector<std::string> more)
@@ -30,17 +33,19 @@ TEST(Tune, WritesAPresetThatOtherCommandsTakeAndGoesOnFromItsRuns)
 {
     const Scratch scratch;
     write_scene(scratch);
-    const Finished first = run_gnomon(tuning({"--validate", "contact", "--json"}), scratch.folder());
+    const Finished first = run_gnomon(tuning({"--json"}), scratch.folder());
     ASSERT_EQ(first.code, 0) << first.err;
     const Json preset = Json::parse(read_whole(scratch / "yard.preset.json"));
+    EXPECT_EQ(Json::parse(first.out), preset);
     EXPECT_EQ(preset.at("technique"), "shadow_map");
     EXPECT_EQ(preset.at("params").at("map_size"), 128);
     EXPECT_TRUE(preset.at("params").contains("bias_scale"));
-    EXPECT_LE(preset.at("tuning").at("after"), preset.at("tuning").at("before"));
-    EXPECT_EQ(preset.at("validation").at("places").size(), 1u);
+    EXPECT_LE(preset.at("tuning").at("ratio"), 1);
+    EXPECT_EQ(preset.at("tuning").at("terms").size(), 2u) << "leak + acne, and mae";
+    EXPECT_FALSE(preset.contains("validation")) << "none was asked for";
     for (const char* key : {"device", "driver", "commit"}) EXPECT_FALSE(preset.at(key).get<std::string>().empty());
 
-    const Finished again = run_gnomon(tuning({"--validate", "contact"}), scratch.folder());
+    const Finished again = run_gnomon(tuning({}), scratch.folder());
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_NE(again.out.find("\n0 runs were made now"), std::string::npos) << again.out;
     EXPECT_EQ(Json::parse(read_whole(scratch / "yard.preset.json")), preset);
@@ -54,6 +59,71 @@ TEST(Tune, WritesAPresetThatOtherCommandsTakeAndGoesOnFromItsRuns)
         = run_gnomon({"render", "balls", "--technique", "@yard.preset.json", "--shadow_map.pcf", "1", "--size", "32x24", "-o", "a.png"},
             scratch.folder());
     EXPECT_EQ(shown.code, 0) << shown.err;
+}
+
+TEST(Tune, KeepsWhatGainsInValidationAndWritesNothingElse)
+{
+    const Scratch scratch;
+    write_scene(scratch);
+    // without any bias, both scenes are full of acne
+    const std::vector<std::string> bare = {"tune", "shadow_map:map_size=128:bias=constant", "yard.json", "--vary", "bias_constant",
+        "--size", "64x40", "--budget", "12", "--validate", "room.json", "-o", "bare.json"};
+    const Finished kept = run_gnomon(bare, scratch.folder());
+    ASSERT_EQ(kept.code, 0) << kept.out << kept.err;
+    const Json preset = Json::parse(read_whole(scratch / "bare.json"));
+    EXPECT_GT(preset.at("params").at("bias_constant"), 0);
+    EXPECT_EQ(preset.at("validation").at("places").size(), 1u);
+    EXPECT_LT(preset.at("validation").at("ratio"), 1);
+
+    // which triangles are drawn changes no picture
+    const Finished nothing = run_gnomon({"tune", "shadow_map:map_size=128", "yard.json", "--vary", "culling", "--size", "64x40", "--budget",
+                                            "4", "--validate", "room.json", "-o", "none.json"},
+        scratch.folder());
+    EXPECT_EQ(nothing.code, 1) << nothing.out << nothing.err;
+    EXPECT_NE(nothing.out.find("no preset was written"), std::string::npos) << nothing.out;
+    EXPECT_FALSE(fs::exists(scratch / "none.json"));
+}
+
+TEST(Tune, GoesOnWhereItWasKilled)
+{
+    const Scratch scratch;
+    write_scene(scratch);
+    std::vector<std::string> call = tuning({});
+    *std::find(call.begin(), call.end(), "6") = "40";
+    const fs::path runs = scratch / "yard.preset.runs.jsonl";
+    RunOptions killing;
+    killing.kill_when = [&] { return fs::exists(runs) && read_whole(runs).find("bias_scale") != std::string::npos; };
+    const Finished killed = run_gnomon(call, scratch.folder(), killing);
+    ASSERT_EQ(killed.signal, 9) << killed.out << killed.err;
+    const std::string before = read_whole(runs);
+    // half a line, as of a process that died while writing
+    std::ofstream(runs, std::ios::app) << "{\"key\": \"12";
+    const Finished on = run_gnomon(call, scratch.folder());
+    ASSERT_EQ(on.code, 0) << on.err;
+    const std::string after = read_whole(runs);
+    EXPECT_EQ(after.substr(0, before.rfind('\n') + 1), before.substr(0, before.rfind('\n') + 1)) << "what was measured stays";
+    EXPECT_EQ(on.out.find(", 0 kept from before"), std::string::npos) << on.out;
+}
+
+TEST(Tune, SaysWhatIsWrongWithItsFiles)
+{
+    const Scratch scratch;
+    write_scene(scratch);
+    for (const char* line : {"not json", "[]", R"({"key": 3, "values": {}, "reference": {}})",
+             R"({"key": "ab", "values": [1], "reference": {}})", R"({"key": "ab", "values": {"leak": "much"}, "reference": {}})"}) {
+        std::ofstream(scratch / "yard.preset.runs.jsonl") << line << "\n";
+        expect_sentence(run_gnomon(tuning({}), scratch.folder()), 1, {"yard.preset.runs.jsonl", "no measurement of this search"});
+    }
+    fs::remove(scratch / "yard.preset.runs.jsonl");
+    fs::create_directory(scratch / "yard.preset.runs.jsonl");
+    expect_sentence(run_gnomon(tuning({}), scratch.folder()), 1, {"yard.preset.runs.jsonl"});
+    fs::remove(scratch / "yard.preset.runs.jsonl");
+    fs::create_symlink("/dev/full", scratch / "yard.preset.runs.jsonl");
+    expect_sentence(run_gnomon(tuning({}), scratch.folder()), 1, {"yard.preset.runs.jsonl"});
+    fs::remove(scratch / "yard.preset.runs.jsonl");
+    // a folder where the preset is to be
+    fs::create_directory(scratch / "yard.preset.json");
+    expect_sentence(run_gnomon(tuning({}), scratch.folder()), 1, {"yard.preset.json"});
 }
 
 TEST(Tune, RefusesInASentence)
@@ -73,55 +143,18 @@ TEST(Tune, RefusesInASentence)
     EXPECT_NE(said(tuning({"--under", "time<2"}), 1).find("lacks a unit"), std::string::npos);
     EXPECT_NE(said(tuning({"--under", "bytes<1B"}), 1).find("keeps bytes<1B: nearest comes shadow_map"), std::string::npos);
     EXPECT_NE(said(tuning({"--validate", "yard.json"}), 1).find("for tuning"), std::string::npos);
+    EXPECT_NE(said(tuning({"--validate", "contact"}), 1).find("of published tables"), std::string::npos);
+    EXPECT_NE(said(tuning({"--minimise", "leak,"}), 1).find("unknown metric"), std::string::npos);
+    EXPECT_NE(said(tuning({"--camera", "attic"}), 1).find("attic"), std::string::npos);
+    EXPECT_NE(said(tuning({"--under", "leak<0.0000001x"}), 1).find("keeps leak<0.0000001x"), std::string::npos);
     EXPECT_NE(said({"tune", "shadow_map", "yard.json", "--vary", "bais", "-o", "p.json"}, 1).find("bias"), std::string::npos);
     EXPECT_NE(said({"tune", "shadow_map", "yard.json", "-o", "p.txt"}, 1).find("no .json file"), std::string::npos);
     EXPECT_NE(said(tuning({"--budget", "0"}), 2).find("budget"), std::string::npos);
     EXPECT_NE(said({"sweep", "e.json", "--plan"}, 1).find("e.json"), std::string::npos);
     std::ofstream(scratch / "e.json") << R"({"scene": "yard.json", "technique": "shadow_map"})";
     EXPECT_NE(said({"sweep", "e.json", "--plan"}, 1).find("for tuning"), std::string::npos);
-}
-
-TEST(Advise, ChoosesWithinTheBudgetAndSaysWhy)
-{
-    const Scratch scratch;
-    const std::vector<std::string> few = {"--light", "sun,elevation=50,angle=0", "--size", "40x24", "--repeats", "2", "--without",
-        "csm,evsm,lvsm,msm,esm,vsm,power_cdf,cssm,vssm,moment_soft,back_projection,occlusion_textures,light_sampling,pcss,blurred_depth"};
-    const auto advise = [&](std::vector<std::string> more) {
-        std::vector<std::string> words = {"advise", "plane"};
-        words.insert(words.end(), few.begin(), few.end());
-        words.insert(words.end(), more.begin(), more.end());
-        return run_gnomon(words, scratch.folder());
-    };
-    const Finished found = advise({"--budget", "512MiB", "--exhaustive", "--json", "-o", "table.md"});
-    ASSERT_EQ(found.code, 0) << found.err;
-    const Json json = Json::parse(found.out);
-    EXPECT_TRUE(json.at("choice").at("within_budget"));
-    EXPECT_FALSE(json.at("reasons").empty());
-    EXPECT_FALSE(json.at("front").empty());
-    EXPECT_LE(json.at("regret"), 0.1);
-    EXPECT_NE(read_whole(scratch / "table.md").find("Largest regret"), std::string::npos);
-
-    const Finished nothing = advise({"--budget", "0.001us"});
-    EXPECT_EQ(nothing.code, 1);
-    EXPECT_NE(nothing.err.find("keeps the budget of 0.001us"), std::string::npos) << nothing.err;
-}
-
-TEST(Advise, RefusesInASentence)
-{
-    const Scratch scratch;
-    const auto said = [&](std::vector<std::string> words) {
-        words.insert(words.begin(), "advise");
-        const Finished f = run_gnomon(words, scratch.folder());
-        EXPECT_EQ(f.code, 1) << f.out;
-        return f.err;
-    };
-    EXPECT_NE(said({"nowhere"}).find("unknown scene 'nowhere'"), std::string::npos);
-    EXPECT_NE(said({"plane", "--budget", "4"}).find("lacks a unit"), std::string::npos);
-    EXPECT_NE(said({"plane", "--metric", "maw"}).find("mae"), std::string::npos);
-    EXPECT_NE(said({"plane", "--metric", "time"}).find("time is no error"), std::string::npos);
-    EXPECT_NE(said({"plane", "--prefer", "sharp"}).find("unknown preference"), std::string::npos);
-    EXPECT_NE(said({"plane", "--without", "pfc"}).find("pcf"), std::string::npos);
-    EXPECT_NE(said({"plane", "-o", "table.txt"}).find("no .md file"), std::string::npos);
+    std::ofstream(scratch / "e.json") << R"({"scene": "room.json", "technique": "shadow_map"})";
+    EXPECT_NE(said({"sweep", "e.json", "--plan"}, 1).find("for validation"), std::string::npos);
 }
 
 } // namespace

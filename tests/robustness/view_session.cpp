@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <thread>
@@ -16,6 +17,34 @@ namespace gnomon::tests {
 namespace {
 
 bool there(const char* program) { return std::system(("command -v " + std::string(program) + " >/dev/null 2>&1").c_str()) == 0; }
+
+/// What a window manager does when its cross is clicked (ICCCM 4.2.8.1), which xdotool cannot: a WM_DELETE_WINDOW message. By libX11, which
+/// GLFW has brought along, without its headers, which it has not.
+void ask_to_close(const std::string& display_name, unsigned long window)
+{
+    struct ClientMessage { // XClientMessageEvent, padded to XEvent
+        int type = 33;
+        unsigned long serial = 0;
+        int send_event = 1;
+        void* display = nullptr;
+        unsigned long window = 0, message_type = 0;
+        int format = 32;
+        long data[5] = {}, padding[12] = {};
+    };
+    void* library = ::dlopen("libX11.so.6", RTLD_NOW);
+    ASSERT_NE(library, nullptr) << ::dlerror();
+    const auto open = reinterpret_cast<void* (*)(const char*)>(::dlsym(library, "XOpenDisplay"));
+    const auto atom = reinterpret_cast<unsigned long (*)(void*, const char*, int)>(::dlsym(library, "XInternAtom"));
+    const auto send = reinterpret_cast<int (*)(void*, unsigned long, int, long, ClientMessage*)>(::dlsym(library, "XSendEvent"));
+    const auto close = reinterpret_cast<int (*)(void*)>(::dlsym(library, "XCloseDisplay"));
+    void* display = open(display_name.c_str());
+    ASSERT_NE(display, nullptr);
+    ClientMessage message;
+    message.window = window, message.message_type = atom(display, "WM_PROTOCOLS", 0);
+    message.data[0] = long(atom(display, "WM_DELETE_WINDOW", 0));
+    EXPECT_NE(send(display, window, 0, 0, &message), 0);
+    close(display); // flushes
+}
 
 void nap(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
@@ -116,33 +145,67 @@ void Viewer::key(const std::string& name) const
     settled();
 }
 
-void Viewer::click(const std::string& widget) const
+Viewer::Json Viewer::place(const std::string& widget) const
 {
     const Json places = state().value("places", Json::object());
-    if (!places.contains(widget)) {
-        ADD_FAILURE() << "no widget '" << widget << "' is to be seen: " << places.dump();
-        return;
-    }
-    const Json& p = places[widget];
+    if (places.contains(widget)) return places[widget];
+    ADD_FAILURE() << "no widget '" << widget << "' is to be seen: " << places.dump();
+    return nullptr;
+}
+
+void Viewer::click(const std::string& widget) const
+{
+    const Json p = place(widget);
+    if (p.is_null()) return;
     // Held, since Dear ImGui wants to see the mouse above the widget before it goes down.
     tool("mousemove " + std::to_string(p[0].get<int>() + 8) + " " + std::to_string((p[1].get<int>() + p[3].get<int>()) / 2)
         + " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
     settled();
 }
 
-void Viewer::drag(int x, int y, int by_x, int by_y) const
+void Viewer::slide(const std::string& widget, double part) const
+{
+    const Json p = place(widget);
+    if (p.is_null()) return;
+    const int left = p[0].get<int>() + 3, right = p[2].get<int>();
+    drag_in_window(left, (p[1].get<int>() + p[3].get<int>()) / 2, int(part * (right - left)), 0, 1);
+}
+
+void Viewer::hold(const std::string& name, const char* what, const std::function<bool(const Json&)>& until) const
+{
+    tool("keydown " + name);
+    wait(what, until);
+    tool("keyup " + name);
+    settled();
+}
+
+void Viewer::drag(int x, int y, int by_x, int by_y, int button) const
 {
     const Json p = state()["picture"];
-    x += p[0].get<int>(), y += p[1].get<int>();
+    drag_in_window(x + p[0].get<int>(), y + p[1].get<int>(), by_x, by_y, button);
+}
+
+void Viewer::drag_in_window(int x, int y, int by_x, int by_y, int button) const
+{
     const auto at
         = [&](int part) { return " mousemove " + std::to_string(x + by_x * part / 4) + " " + std::to_string(y + by_y * part / 4); };
-    tool(at(0) + " sleep 0.3 mousedown 1 sleep 0.3" + at(1) + " sleep 0.2" + at(2) + " sleep 0.2" + at(4) + " sleep 0.4 mouseup 1");
+    const std::string which = std::to_string(button);
+    tool(at(0) + " sleep 0.3 mousedown " + which + " sleep 0.3" + at(1) + " sleep 0.2" + at(2) + " sleep 0.2" + at(4)
+        + " sleep 0.4 mouseup " + which);
     settled();
 }
 
 Finished Viewer::quit()
 {
     tool("key ctrl+q");
+    return run_.get();
+}
+
+Finished Viewer::close()
+{
+    const std::filesystem::path file = folder_ / "window";
+    EXPECT_EQ(std::system(("DISPLAY=" + display_.name() + " xdotool search --name '^Gnomon: ' >" + file.string()).c_str()), 0);
+    ask_to_close(display_.name(), std::stoul("0" + read_whole(file)));
     return run_.get();
 }
 

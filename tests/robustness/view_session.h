@@ -44,11 +44,18 @@ public:
     void tool(const std::string& words) const; ///< xdotool
     void key(const std::string& name) const;
     void click(const std::string& widget) const; ///< by its name among the state's places
-    void drag(int x, int y, int by_x, int by_y) const; ///< in the picture, from its corner
+    void drag(int x, int y, int by_x, int by_y, int button = 1) const; ///< in the picture, from its corner
     void window(const std::string& command) const; ///< xdotool windowsize WINDOW ...: "windowsize % 800 600", % being the window
+    /// Drags a slider from its left end to this part of its width, its label included.
+    void slide(const std::string& widget, double part) const;
+    void hold(const std::string& name, const char* what, const std::function<bool(const Json&)>& until) const; ///< a key, until then
     Finished quit();
+    Finished close(); ///< as the window manager does
 
 private:
+    Json place(const std::string& widget) const; ///< null where it is not to be seen
+    void drag_in_window(int x, int y, int by_x, int by_y, int button) const;
+
     std::filesystem::path folder_;
     Display display_;
     std::future<Finished> run_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_builder.h"
 
+#include "scene/animation.h"
+
 namespace gnomon::scene {
 namespace {
 
@@ -162,6 +164,22 @@ TEST(gltf_motion, faults_in_an_animation_leave_the_rest)
     EXPECT_NE(warning_with("/animations/0/channels/0/target/path", "colour").find("unknown property 'colour'"), std::string::npos);
     EXPECT_NE(warning_with("/animations/0/channels/0/target/node", 9).find("refers to nodes[9]"), std::string::npos);
     EXPECT_NE(warning_with("/accessors/2/count", 1).find("do not fit"), std::string::npos);
+}
+
+TEST(gltf_motion, the_longest_animation_tells_how_long_a_scene_moves)
+{
+    GltfBuilder b = animated("translation", "LINEAR", two_places, {0, 2.5f});
+    const TemporaryFolder folder;
+    base::write_text(folder / "made.gltf", b.gltf_text());
+    EXPECT_EQ(animation_seconds((folder / "made.gltf").string()), 2.5);
+    base::write_text(folder / "scene.json", R"({"model": "made.gltf"})");
+    EXPECT_EQ(animation_seconds((folder / "scene.json").string()), 2.5);
+    base::write_text(folder / "builtin.json", R"({"model": "balls"})");
+    EXPECT_EQ(animation_seconds((folder / "builtin.json").string()), 0.0);
+    EXPECT_EQ(animation_seconds("balls"), 0.0);
+    b.push("animations", {{"samplers", {{{"input", 99}, {"output", 0}}}}, {"channels", json::array()}});
+    base::write_text(folder / "broken.gltf", b.gltf_text());
+    EXPECT_EQ(animation_seconds((folder / "broken.gltf").string()), 2.5) << "what is broken is left out";
 }
 
 } // namespace

@@ -97,6 +97,22 @@ TEST(Candidates, FollowFromWhatParametersAreCalled)
     }
 }
 
+TEST(Candidates, LetLightThroughWhereCastersDo)
+{
+    const Stage sun = stage_of("plane", "sun,elevation=50,angle=0");
+    const auto count = [&](const shadow::TechniqueInfo& info, bool see_through) {
+        const std::vector<Choice> all = settings(info, sun.lights.front(), Prefer::any, see_through);
+        return std::count_if(all.begin(), all.end(), [](const Choice& c) { return output_of(c) == shadow::Output::transmittance; });
+    };
+    long found = 0;
+    for (const shadow::TechniqueInfo* info : shadow::techniques()) {
+        if (!info->output_of || info->output == shadow::Output::transmittance) continue;
+        EXPECT_EQ(count(*info, false), 0) << info->id;
+        found += count(*info, true);
+    }
+    EXPECT_GT(found, 0);
+}
+
 TEST(Candidates, CostMoreWithMoreOfTheSame)
 {
     EXPECT_TRUE(costs_more(parse_choice("pcf:map_size=2048"), parse_choice("pcf")));
@@ -104,7 +120,11 @@ TEST(Candidates, CostMoreWithMoreOfTheSame)
     EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf")));
     EXPECT_FALSE(costs_more(parse_choice("pcf"), parse_choice("pcf:map_size=2048")));
     EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:taps=8"), parse_choice("pcf")));
-    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048:fit=sdsm"), parse_choice("pcf")));
+    EXPECT_TRUE(costs_more(parse_choice("pcf:map_size=2048:fit=sdsm"), parse_choice("pcf")));
+    EXPECT_TRUE(costs_more(parse_choice("pcf:fit=cascades"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=512:fit=cascades"), parse_choice("pcf")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:fit=sdsm"), parse_choice("pcf:fit=cascades")));
+    EXPECT_FALSE(costs_more(parse_choice("pcf:fit=focused"), parse_choice("pcf")));
     EXPECT_FALSE(costs_more(parse_choice("pcf:map_size=2048"), parse_choice("shadow_map")));
 }
 
@@ -112,6 +132,67 @@ TEST(Candidates, PreferencesHaveNames)
 {
     EXPECT_EQ(parse_prefer("stable"), Prefer::stable);
     EXPECT_THROW(parse_prefer("stabel"), base::Error);
+}
+
+/// An advice with these measurements, the first of which is the choice.
+Advice advice_of(std::vector<Measured> measured)
+{
+    Advice a;
+    a.metric = "mae", a.reference = "shadow_map", a.reference_ms = 3, a.budget = {"2x"}, a.size = {64, 36};
+    a.candidates = 40, a.techniques = 4, a.measured = std::move(measured);
+    a.features.triangles = 100, a.features.meshes = 1;
+    if (a.measured.front().excess == 0) a.chosen = a.measured.front();
+    return a;
+}
+
+Measured measured(const std::string& choice, double error, double ms, double excess = 0)
+{
+    return {parse_choice(choice), {.error = error, .ms = ms, .mean_ms = ms, .bytes = 1 << 20}, excess};
+}
+
+bool holds(const Advice& a, const std::string& sentence)
+{
+    const std::vector<std::string> all = advice_reasons(a);
+    return std::find(all.begin(), all.end(), sentence) != all.end();
+}
+
+TEST(Reasons, NameTheBudgetTheChoiceAndWhatStandsBeside)
+{
+    const Advice a = advice_of({measured("pcf", 0.02, 4), measured("pcf:taps=64", 0.03, 5), measured("vsm", 0.025, 5),
+        measured("msm", 0.01, 9, 0.5), measured("evsm", 0.005, 30, 4)});
+    EXPECT_TRUE(holds(a, "the budget of 2x is 6 ms here: shadow_map takes 3 ms"));
+    EXPECT_TRUE(holds(a, "pcf errs least of those within 2x: mae 0.02 in 4 ms and 1 MiB"));
+    EXPECT_TRUE(holds(a, "the next technique is vsm: mae 0.025 in 5 ms and 1 MiB"));
+    EXPECT_TRUE(holds(a, "with more to spend there is msm: mae 0.01 in 9 ms and 1 MiB")) << "the nearest beyond the budget, not the best";
+    EXPECT_TRUE(holds(a, "40 settings of 4 techniques fit; small pictures left 5 to measure at the full 64x36"));
+}
+
+TEST(Reasons, NameWhatTheChoiceLacks)
+{
+    Advice soft = advice_of({measured("pcf", 0.02, 4)});
+    soft.features.soft = true;
+    EXPECT_TRUE(holds(soft, "it takes the light as a point, and yet nothing with penumbrae that keeps the budget errs less"));
+    Advice panes = advice_of({measured("pcf", 0.02, 4), measured("shadow_volumes:log_alpha=on", 0.01, 9, 0.5)});
+    panes.features.see_through = 10;
+    EXPECT_TRUE(holds(panes,
+        "it lets no light through semitransparent casters, which is a part of its error; of those that do, shadow_volumes:log_alpha=on "
+        "errs "
+        "least: mae 0.01 in 9 ms and 1 MiB, over the budget"));
+    Advice glass = advice_of({measured("shadow_volumes:log_alpha=on", 0.01, 9)});
+    glass.features.see_through = 10;
+    for (const std::string& reason : advice_reasons(glass)) EXPECT_EQ(reason.find("it lets no light"), std::string::npos) << reason;
+    EXPECT_TRUE(holds(glass, "its method is exact: only pixels on shadows' edges may differ"));
+}
+
+TEST(Reasons, NameTheNearestWhereNothingKeepsTheBudget)
+{
+    const Advice a = advice_of({measured("vsm", 0.01, 60, 9), measured("pcf", 0.02, 9, 0.5)});
+    EXPECT_FALSE(a.chosen);
+    EXPECT_EQ(nothing_keeps(a),
+        "nothing that fits keeps the budget of 2x (shadow_map takes 3 ms): nearest comes pcf with mae 0.02 in 9 ms and 1 MiB; allow that, "
+        "or "
+        "take a smaller picture");
+    EXPECT_FALSE(advice_reasons(a).empty());
 }
 
 TEST(Halving, FrontHoldsWhatNothingBeats)
@@ -133,8 +214,8 @@ TEST(Halving, MeasuresFewDearlyAndKeepsTheBest)
     };
     const std::vector<size_t> last = halve({.candidates = count, .measure = measure});
     EXPECT_NE(std::find(last.begin(), last.end(), 37u), last.end());
-    EXPECT_EQ(made, (std::vector<size_t>{64, 32, 16}));
-    EXPECT_EQ(last.size(), 16u);
+    EXPECT_EQ(made, (std::vector<size_t>{64, 22, 8}));
+    EXPECT_EQ(last.size(), 8u);
     EXPECT_TRUE(std::is_sorted(last.begin(), last.end()));
 }
 

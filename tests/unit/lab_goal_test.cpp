@@ -67,6 +67,9 @@ TEST(Goal, RefusesConstraintsInASentence)
     EXPECT_NE(complaint([] { parse_sum("leak+akne"); }).find("did you mean 'acne'"), std::string::npos);
     EXPECT_NE(complaint([] { parse_sum(""); }).find("unknown metric"), std::string::npos);
     EXPECT_EQ(parse_sum("leak+acne"), (std::vector<std::string>{"leak", "acne"}));
+    EXPECT_EQ(parse_terms("leak+acne,mae"), (std::vector<std::vector<std::string>>{{"leak", "acne"}, {"mae"}}));
+    EXPECT_NE(complaint([] { parse_terms("leak,"); }).find("unknown metric"), std::string::npos);
+    EXPECT_NE(complaint([] { parse_terms("leak,mea"); }).find("did you mean 'mae'"), std::string::npos);
 }
 
 TEST(Goal, TakesQuantitiesFromRuns)
@@ -94,14 +97,35 @@ protected:
 TEST_F(PresetFile, IsTakenWhereverATechniqueIsNamed)
 {
     Preset preset{.choice = parse_choice("shadow_map:bias=slope:map_size=512"), .vary = {"bias", "bias_scale"}, .minimise = "leak+acne"};
-    preset.tuning = {{"a", "c", "sun", {4, 4}, 0.4, 0.2}, {"b", "c", "sun", {4, 4}, 0.2, 0.1}};
+    preset.tuning = {{"a", "c", "sun", {4, 4}, {{"leak", 0.4}}, {{"leak", 0.2}}, {0.5, 1}, 0},
+        {"b", "c", "sun", {4, 4}, {{"leak", 0.2}}, {{"leak", 0.1}}, {0.25, 0.75}, 0}};
     write_preset(file_, preset);
     EXPECT_EQ(choice_text(parse_choice(at())), "shadow_map:map_size=512:bias=slope");
     EXPECT_EQ(choice_text(parse_choice(at() + ":map_size=256:pcf=5")), "shadow_map:map_size=256:pcf=5:bias=slope");
     const auto json = nlohmann::ordered_json::parse(base::read_text(file_));
     EXPECT_EQ(json["params"].dump(), R"({"map_size":512,"bias":"slope","bias_scale":1.0})");
-    EXPECT_NEAR(json["tuning"]["before"].get<double>(), 0.3, 1e-12);
-    EXPECT_NEAR(json["tuning"]["after"].get<double>(), 0.15, 1e-12);
+    EXPECT_NEAR(json["tuning"]["before"]["leak"].get<double>(), 0.3, 1e-12);
+    EXPECT_NEAR(json["tuning"]["after"]["leak"].get<double>(), 0.15, 1e-12);
+    EXPECT_NEAR(json["tuning"]["ratio"].get<double>(), 0.625, 1e-12);
+    EXPECT_NEAR(json["tuning"]["terms"][0].get<double>(), 0.375, 1e-12);
+    // deviation of 0.75 and 0.5 from their mean, over the root of two
+    EXPECT_NEAR(json["tuning"]["standard_error"].get<double>(), 0.125, 1e-12);
+}
+
+TEST(Ratios, GainOnlyBeyondTheirErrorAndWithoutAWorseTerm)
+{
+    const auto gained = [](std::vector<std::vector<double>> terms) {
+        std::vector<Preset::Place> places;
+        for (std::vector<double>& t : terms) (places.emplace_back(), places.back().ratios = std::move(t));
+        return ratios(places).gained();
+    };
+    EXPECT_TRUE(gained({{0.9, 0.8}, {0.85, 0.95}}));
+    EXPECT_FALSE(gained({{0.5, 0.5}, {1.45, 1.45}})) << "less than its standard error";
+    EXPECT_FALSE(gained({{0.5, 1.1}, {0.5, 1.1}})) << "the second term is worse";
+    EXPECT_TRUE(gained({{0.9, 1.009}, {0.9, 1.009}})) << "worse by less than a percent";
+    EXPECT_FALSE(gained({{0.996, 1}, {0.996, 1}})) << "less than half a percent";
+    EXPECT_FALSE(gained({{1, 1}, {1, 1}}));
+    EXPECT_FALSE(gained({}));
 }
 
 TEST_F(PresetFile, SaysWhatIsWrongWithItAndWhere)

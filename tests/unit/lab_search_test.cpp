@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace gnomon::lab {
@@ -111,6 +113,40 @@ TEST(Search, MeansOverPlacesAndSavesReadingsThere)
     EXPECT_EQ(last, found.best);
     EXPECT_EQ(readings, found.readings);
     EXPECT_LE(readings, 60u * 9u);
+}
+
+TEST(Search, LeavesAParameterThatAnotherSwitchesOffAfterAFewPlaces)
+{
+    // the second axis matters only under the second word, which is bad everywhere
+    std::map<Point, size_t> readings;
+    SearchOptions options = searching({Axis::words(2), Axis::real(0, 1)}, {0, 0.5}, nullptr, 20);
+    options.places = 30;
+    options.measure = [&](const Point& p, size_t place) {
+        ++readings[p];
+        return Reading{p[0] == 1 ? 3 + p[1] : 1 + 0.1 * double(place % 3), 0};
+    };
+    const SearchResult found = search(options);
+    EXPECT_EQ(found.best, options.start);
+    const auto whole = std::count_if(readings.begin(), readings.end(), [](const auto& r) { return r.second == 30; });
+    EXPECT_GT(readings.size(), 60u) << "given up early, the budget of 20 points' readings reaches many more";
+    EXPECT_LT(whole, 12);
+}
+
+TEST(Search, GivesAStepUpThatLosesClearlyAndNotOneThatIsNoisy)
+{
+    size_t clear = 0, noisy = 0;
+    SearchOptions options = searching({Axis::words(3)}, {0}, nullptr, 3);
+    options.places = 40;
+    options.measure = [&](const Point& p, size_t place) {
+        const double base = double(place % 7);
+        if (p[0] == 1) return ++clear, Reading{base + 1 + 0.1 * double(place % 2), 0};
+        if (p[0] == 2) return ++noisy, Reading{base + (place % 2 ? 2.0 : -2.5), 0};
+        return Reading{base, 0};
+    };
+    const SearchResult found = search(options);
+    EXPECT_EQ(found.best, Point{2}) << "better in the mean, worse in half of the places";
+    EXPECT_EQ(noisy, 40u);
+    EXPECT_LT(clear, 40u);
 }
 
 TEST(Search, IsTheSameEachTimeAndAnotherWithAnotherSeed)

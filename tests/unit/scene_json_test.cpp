@@ -63,11 +63,12 @@ TEST_F(SceneJson, RoundTripKeepsEveryBuiltinsCamerasAndLights)
 {
     for (const Builtin& b : builtins()) {
         Scene scene = b.make(1.0);
-        scene.tuning = true;
+        scene.tuning = true, scene.validation = true;
         scene.lights[0].intensity = 2.5f;
         scene.cameras[0].half_height = 3.0f, scene.cameras[0].near = 0.2f, scene.cameras[0].up = vec3(0, 0, -1);
         const Scene back = load_scene_json(write(scene_json_text(scene, b.name)));
         EXPECT_TRUE(back.tuning);
+        EXPECT_TRUE(back.validation);
         EXPECT_EQ(back.name, "scene");
         EXPECT_EQ(back.triangle_count(), scene.triangle_count());
         ASSERT_EQ(back.lights.size(), scene.lights.size());
@@ -159,6 +160,7 @@ TEST_F(SceneJson, ErrorsNameFilePlaceAndWayOut)
         {R"({"model": "plane", "cameras": {}})", "/cameras: must be an array"},
         {R"({"model": "plane", "detail": 1e9})", "/detail: is"},
         {R"({"model": "plane", "tuning": 1})", "/tuning: must be true or false"},
+        {R"({"model": "plane", "validation": "yes"})", "/validation: must be true or false"},
         {R"({"model": "other.json"})", "another scene file"},
         {R"({"model": "planee"})", "planee"},
         {light + R"("target": [0, 0, 0], "cone_deg": 400}]})", "/lights/0/cone_deg: is 400, outside its range 0.1 to 179"},

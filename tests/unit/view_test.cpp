@@ -132,5 +132,42 @@ TEST(ViewControls, ALightFollowsTheMouse)
     EXPECT_NEAR(glm::length(higher), 1.0f, 1e-6f);
 }
 
+TEST(ViewText, ColoursOfTheScenesLightsAreSaidWhereTheyDiffer)
+{
+    scene::Light own;
+    own.name = "lamp", own.color = {0.8f, 0.5f, 0.2f}, own.shape = scene::PointLight{};
+    const std::vector<scene::Light> known = {own};
+    const LightOrigin origin = light_origin("lamp", known);
+    EXPECT_EQ(light_text(own, origin).find("color"), std::string::npos);
+    scene::Light changed = own;
+    changed.color = {0.1f, 0.5f, 0.2f}, changed.intensity = 3.5f;
+    const scene::Light read = scene::parse_light(light_text(changed, origin), known, bounds);
+    EXPECT_EQ(read.color, changed.color);
+    EXPECT_EQ(read.intensity, changed.intensity);
+}
+
+TEST(ViewControls, LightsGrowFromPointsAndShrinkBackToThem)
+{
+    for (const char* text : {"sun,elevation=33,azimuth=71,angle=0", "spot,position=1/2/3,radius=0", "point,position=0.1/0.7/-3,radius=0"}) {
+        const scene::Light point = scene::parse_light(text, {}, bounds), grown = resize_light(point, 50, 0.01f);
+        EXPECT_FALSE(resize_light(point, -50, 0.01f).soft() && !point.soft()) << text;
+        const auto size = [](const scene::Light& l) {
+            return glm::distance(
+                vec3(scene::light_point(l, {0, 0, 0}, {0.01f, 0.3f})), vec3(scene::light_point(l, {0, 0, 0}, {0.99f, 0.7f})));
+        };
+        EXPECT_EQ(size(point), 0.0f) << text;
+        EXPECT_GT(size(grown), 0.0f) << text;
+        EXPECT_GT(size(resize_light(grown, 50, 0.01f)), 1.4f * size(grown)) << text;
+        EXPECT_EQ(size(resize_light(grown, -500, 0.01f)), 0.0f) << text;
+    }
+    for (const char* text : {"rect,position=0/3/0,width=1.5,height=0.5", "disk,position=0/3/0,radius=0.3"}) {
+        const scene::Light panel = scene::parse_light(text, {}, bounds), least = resize_light(panel, -1e4f, 0.01f);
+        EXPECT_NO_THROW(again(least)) << text << ": panels keep an area";
+        const float area
+            = glm::distance(vec3(scene::light_point(least, {0, 0, 0}, {0, 0})), vec3(scene::light_point(least, {0, 0, 0}, {1, 1})));
+        EXPECT_GT(area, 0.0f) << text;
+    }
+}
+
 } // namespace
 } // namespace gnomon::view

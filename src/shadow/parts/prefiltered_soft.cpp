@@ -58,7 +58,7 @@ void resolve_prefiltered_soft(gpu::PassList& passes, const Frame& frame, const P
     std::span<const gpu::SpecConstant> spec, gpu::Constants constants, std::vector<gpu::Binding> more)
 {
     more.insert(more.begin(), {array(map.soft.map.depth), array(map.range)});
-    resolve_soft(passes, frame, map.soft.map, shader, spec, std::move(constants), std::move(more));
+    resolve_soft(passes, frame, map.soft.map, shader, spec, std::move(constants), std::move(more), true);
 }
 
 } // namespace gnomon::shadow::parts

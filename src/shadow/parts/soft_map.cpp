@@ -33,7 +33,7 @@ SoftMap draw_soft_map(gpu::PassList& passes, const Frame& frame, const shaders::
 }
 
 void resolve_soft(gpu::PassList& passes, const Frame& frame, const LightMap& map, std::string_view shader,
-    std::span<const gpu::SpecConstant> spec, gpu::Constants constants, std::vector<gpu::Binding> more)
+    std::span<const gpu::SpecConstant> spec, gpu::Constants constants, std::vector<gpu::Binding> more, bool estimates)
 {
     gpu::FullscreenPass pass;
     pass.name = "resolve";
@@ -42,6 +42,16 @@ void resolve_soft(gpu::PassList& passes, const Frame& frame, const LightMap& map
     pass.bindings.insert(pass.bindings.end(), more.begin(), more.end());
     pass.constants = with_map(std::move(constants), map, offsetof(shaders::SoftResolve, map));
     pass.colors = {{frame.output}};
+    if (estimates && frame.inspections) {
+        gpu::FullscreenPass again = pass;
+        std::vector<gpu::SpecConstant> inspect(spec.begin(), spec.end());
+        inspect.push_back({31, 1u}); // inspect_penumbra
+        again.name = "inspect penumbra";
+        again.program = &passes.device().raster_program("shaders/fullscreen.vert", shader, inspect);
+        again.colors = {{inspection_image(passes, frame)}};
+        frame.inspections->push_back({"penumbra", "m", false, again.colors[0].image});
+        passes.fullscreen(std::move(again));
+    }
     passes.fullscreen(std::move(pass));
 }
 

@@ -29,8 +29,8 @@ shaders::SoftResolve soft_constants(const Frame&, const shaders::LightMap&, cons
 SoftMap draw_soft_map(gpu::PassList&, const Frame&, const shaders::SoftParams&);
 
 /// The full-screen pass that writes frame.output. Bindings 0 and 1 are those of shaders/soft_map.glsl; `more` follow. The constants begin
-/// with soft_constants of the map.
+/// with soft_constants of the map. `estimates`: the shader calls estimate_penumbra, so that there is one to leave in Frame::inspections.
 void resolve_soft(gpu::PassList&, const Frame&, const LightMap&, std::string_view shader, std::span<const gpu::SpecConstant>,
-    gpu::Constants, std::vector<gpu::Binding> more);
+    gpu::Constants, std::vector<gpu::Binding> more, bool estimates = false);
 
 } // namespace gnomon::shadow::parts
