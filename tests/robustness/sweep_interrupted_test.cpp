@@ -88,8 +88,8 @@ TEST(SweepInterrupted, ByTheKeyboardItKeepsWhatIsFinished)
     const Scratch scratch;
     write(scratch, many());
     const fs::path file = scratch / "out/results.jsonl";
-    const Finished f = run_gnomon(
-        {"sweep", "small.json", "-o", "out"}, scratch.folder(), {.kill_when = [&] { return whole_lines(file) >= 5; }, .kill_signal = SIGINT});
+    const Finished f = run_gnomon({"sweep", "small.json", "-o", "out"}, scratch.folder(),
+        {.kill_when = [&] { return whole_lines(file) >= 5; }, .kill_signal = SIGINT});
     EXPECT_TRUE(f.signal == SIGINT || f.code == 130) << f.signal << " " << f.code;
     const size_t kept = whole_lines(file);
     EXPECT_GE(kept, 5u);
