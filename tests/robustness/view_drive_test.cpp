@@ -16,20 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class ViewDrive : public testing::Test {
+class ViewDrive : public WithWindows {
 protected:
-    void SetUp() override
-    {
-        const std::string reason = no_windows(scratch);
-        if (!reason.empty()) GTEST_SKIP() << reason;
-    }
     void TearDown() override
     {
-        if (!end) return;
-        EXPECT_EQ(end->code, 0) << end->err;
-        EXPECT_EQ(end->signal, 0);
-        EXPECT_FALSE(end->timed_out);
-        EXPECT_EQ(end->err, "") << "validation and all else";
+        if (end) expect_silent(*end);
     }
 
     /// The picture that P writes now.
@@ -41,7 +32,6 @@ protected:
         return base::read_png(scratch / message.substr(6), base::Encoding::linear);
     }
 
-    Scratch scratch;
     std::optional<Finished> end; ///< how the viewer ended
 };
 

@@ -209,4 +209,18 @@ Finished Viewer::close()
     return run_.get();
 }
 
+void WithWindows::SetUp()
+{
+    const std::string reason = no_windows(scratch);
+    if (!reason.empty()) GTEST_SKIP() << reason;
+}
+
+void expect_silent(const Finished& f)
+{
+    EXPECT_EQ(f.code, 0) << f.err;
+    EXPECT_EQ(f.signal, 0);
+    EXPECT_FALSE(f.timed_out);
+    EXPECT_EQ(f.err, "") << "validation and all else";
+}
+
 } // namespace gnomon::tests

@@ -3,6 +3,7 @@
 
 #include "process.h"
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <functional>
@@ -60,5 +61,15 @@ private:
     Display display_;
     std::future<Finished> run_;
 };
+
+/// Skipped where there can be no windows.
+class WithWindows : public testing::Test {
+protected:
+    void SetUp() override;
+    Scratch scratch;
+};
+
+/// It ended as a user wants it: code 0, and not a word of complaint, validation's included.
+void expect_silent(const Finished&);
 
 } // namespace gnomon::tests

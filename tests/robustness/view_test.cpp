@@ -13,23 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class View : public testing::Test {
-protected:
-    void SetUp() override
-    {
-        const std::string reason = no_windows(scratch);
-        if (!reason.empty()) GTEST_SKIP() << reason;
-    }
-    Scratch scratch;
-};
-
-void expect_silent(const Finished& f)
-{
-    EXPECT_EQ(f.code, 0) << f.err;
-    EXPECT_EQ(f.signal, 0);
-    EXPECT_FALSE(f.timed_out);
-    EXPECT_EQ(f.err, "") << "validation and all else";
-}
+using View = WithWindows;
 
 /// The words of a command line as a POSIX shell takes them, of what shell_word writes.
 std::vector<std::string> words_of(const std::string& line)
