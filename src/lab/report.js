@@ -26,7 +26,7 @@ const columns = [{ name: "technique", of: r => r.name, help: "with the parameter
   { name: "MiB", of: r => has(r.bytes) ? r.bytes / 1048576 : undefined, help: "of its own images and buffers", text: digits(2) }];
 // parts and relatives of other metrics: shown on demand
 const detail = new Set(["wrong_outside_band", "acne_outside_band", "leak_outside_band", "contact_gap", "rms", "max", "bias_penumbra", "bias_outside", "grain", "noise", "filter_rms", "filter_max", "filter_bias"]);
-const early = ["flip", "wrong_pixels", "mae"];
+const early = ["popping", "swimming", "flicker", "flip", "wrong_pixels", "mae"];
 for (const m of [...data.metrics].sort((a, b) => early.indexOf(b.id) - early.indexOf(a.id)))
   if (ran.some(r => has(r.metrics[m.id])))
     columns.push({ name: m.id, unit: m.unit, of: r => r.metrics && r.metrics[m.id], help: m.help, text: m.unit === "pixels" ? digits(3) : short, detail: detail.has(m.id), plain: m.id.endsWith("noise") });

@@ -119,11 +119,14 @@ std::string style(const PlotSeries& s, bool words)
 
 std::string script(const PlotSpec& plot, const std::vector<PlotSeries>& series, bool words)
 {
+    // names of 40 letters beside the plot leave it a tenth of its width
+    const bool below = std::any_of(series.begin(), series.end(), [](const PlotSeries& s) { return s.name.size() > 40; });
     std::string out
-        = fmt::format("set terminal svg size 800,500 dynamic noenhanced background '#ffffff' font 'sans-serif,14'\nset output {}\n"
-                      "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc '#cccccc'\nset key outside right top reverse Left\n"
+        = fmt::format("set terminal svg size 800,{} dynamic noenhanced background '#ffffff' font 'sans-serif,14'\nset output {}\n"
+                      "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc '#cccccc'\nset key outside {} reverse Left\n"
                       "set errorbars 0.7\nset format y '%g'\nset tics nomirror\nset border 3\n",
-            plot_text(plot.file + ".svg"), plot_text(plot.title), plot_text(plot.x_label), plot_text(plot.y_label));
+            below ? 500 + 20 * series.size() : 500, plot_text(plot.file + ".svg"), plot_text(plot.title), plot_text(plot.x_label),
+            plot_text(plot.y_label), below ? "below left vertical maxcols 1" : "right top");
     if (plot.log_y) out += "set logscale y\n";
     if (plot.log_x && !words) out += "set logscale x\n";
     const std::vector<std::string> labels = words ? labels_of(series) : std::vector<std::string>();
