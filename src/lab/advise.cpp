@@ -97,13 +97,12 @@ private:
                                       : fmt::format("{} is left out because {}", out_.left_out.front().what, out_.left_out.front().why));
     }
 
-    /// Readings at most: what is far too dear is skipped.
+    /// Readings at most, those included that are passed over. Exhaustive, all at full size come first, and the last round makes no more.
     size_t expected() const
     {
-        size_t count = options_.exhaustive ? candidates_.size() : 0;
-        for (size_t left = candidates_.size(), round = 0; round < Rule::rounds;
-             ++round, left = std::max(HalvingOptions().least, (left + 2) / 3))
-            count += left;
+        size_t count = 0, left = candidates_.size();
+        for (int round = 0; round < Rule::rounds; ++round, left = std::min(left, std::max(HalvingOptions().least, (left + 2) / 3)))
+            count += options_.exhaustive && size_t(round) == full ? candidates_.size() : left;
         return count;
     }
 
@@ -113,7 +112,8 @@ private:
             .time
             = [this](size_t i, const Again& again) { return meter_->measure_time(full, candidates_[i], 1, again).technique_least_ms; },
             .time_reference = [this](const Again& again) { return meter_->measure_time(full, reference_, 1, again).technique_least_ms; },
-            .costs_more = [this](size_t a, size_t b) { return costs_more(candidates_[a], candidates_[b]); }};
+            .costs_more = [this](size_t a, size_t b) { return costs_more(candidates_[a], candidates_[b]); },
+            .passed_over = [&progress] { progress.advance(); }};
     }
 
     std::optional<Reading> measure(size_t candidate, int round, const Again& again, base::Progress& progress)

@@ -59,7 +59,10 @@ std::optional<Trial> Rule::trial(size_t candidate, int round)
     const auto key = std::pair(candidate, round);
     if (seen_.find(key) == seen_.end()) {
         std::optional<Reading> reading;
-        if (!too_dear(candidate, round)) reading = gauges_.measure(candidate, round, patience(round));
+        if (!too_dear(candidate, round))
+            reading = gauges_.measure(candidate, round, patience(round));
+        else if (gauges_.passed_over)
+            gauges_.passed_over();
         if (reading && round + 1 == rounds) full_[candidate] = *reading;
         seen_[key] = reading;
     }

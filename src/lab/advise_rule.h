@@ -37,6 +37,7 @@ struct Gauges {
     std::function<double(size_t candidate, const Again&)> time; ///< the least milliseconds of a few more frames at full size
     std::function<double(const Again&)> time_reference; ///< the same of the reference
     std::function<bool(size_t a, size_t b)> costs_more; ///< a is b with more of what takes time
+    std::function<void()> passed_over{}; ///< told, where given, in place of a measurement that could not win
 };
 
 class Rule {

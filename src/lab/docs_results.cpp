@@ -2,11 +2,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/line_file.h"
+#include "base/temporary_folder.h"
 #include "lab/folder.h"
 #include "lab/sweep.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace gnomon::lab {
 
@@ -32,33 +32,12 @@ bool of_other_gnuplots(const std::string& a, const std::string& b)
     return producer(a) != producer(b);
 }
 
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::string pattern = (fs::temp_directory_path() / "gnomon-docs-XXXXXX").string();
-        if (!::mkdtemp(pattern.data())) base::fail("cannot make a folder in {}; set TMPDIR", fs::temp_directory_path().string());
-        path_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
-
 /// Makes a sweep's page, table and plots from its line file; the stale ones.
 std::vector<fs::path> update_sweep(const fs::path& folder, const Experiment& experiment, bool check)
 {
     Results results;
     results.add_file(folder / "results.jsonl", base::read_lines(folder / "results.jsonl"));
-    const TemporaryFolder made;
+    const base::TemporaryFolder made;
     std::vector<std::string> notes;
     std::vector<fs::path> stale;
     if (result_rows(experiment, results).empty()) return stale;

@@ -2,13 +2,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
+#include "base/temporary_folder.h"
 #include "lab/folder.h"
 #include "lab/gallery.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 namespace gnomon::lab {
@@ -21,8 +21,6 @@ class Gallery : public testing::Test {
 protected:
     Gallery()
     {
-        std::string pattern = (fs::temp_directory_path() / "gnomon-gallery-XXXXXX").string();
-        root_ = ::mkdtemp(pattern.data());
         base::write_text(root_ / "README.md", "# x\n<!-- generated:pictures -->\n<!-- /generated -->\n");
         base::write_text(root_ / "docs/gallery.md", "# x\n<!-- generated:gallery -->\n<!-- /generated -->\n");
         base::write_text(root_ / "techniques/README.md", "# x\n");
@@ -30,7 +28,6 @@ protected:
         put(200, 100);
         update_docs(root_, false);
     }
-    ~Gallery() override { fs::remove_all(root_); }
 
     /// A picture whose only error is at that place of its panels, where the first one has a mark.
     void put(int x, int y) const
@@ -43,7 +40,8 @@ protected:
     }
     fs::path thumbnail() const { return root_ / "docs/pictures/thumbnails/pcss.png"; }
 
-    fs::path root_;
+    base::TemporaryFolder folder_;
+    const fs::path root_ = folder_.path();
 };
 
 TEST_F(Gallery, ThumbnailShowsWhereTheErrorIs)

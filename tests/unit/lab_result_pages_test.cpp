@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "lab/folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 namespace gnomon::lab {
@@ -18,17 +18,16 @@ class ResultPages : public testing::Test {
 protected:
     ResultPages()
     {
-        std::string pattern = (fs::temp_directory_path() / "gnomon-pages-XXXXXX").string();
-        root_ = ::mkdtemp(pattern.data());
         const fs::path source = GNOMON_SOURCE, results = fs::path("experiments/results/llvmpipe/sintorn2011_counts");
         fs::create_directories(root_ / results), fs::create_directories(root_ / "experiments/sintorn2011");
         fs::copy(source / results, root_ / results);
         fs::copy(source / "experiments/sintorn2011/sintorn2011_counts.json", root_ / "experiments/sintorn2011");
         table_ = root_ / results / "results.csv", lines_ = root_ / results / "results.jsonl";
     }
-    ~ResultPages() override { fs::remove_all(root_); }
 
-    fs::path root_, table_, lines_;
+    base::TemporaryFolder folder_;
+    const fs::path root_ = folder_.path();
+    fs::path table_, lines_;
 };
 
 TEST_F(ResultPages, ATableThatDoesNotFollowFromTheLinesIsStale)
