@@ -81,7 +81,8 @@ message("${text}")
 demand(${build}/bin/gnomon picture probe)
 demand_only("^techniques/probe/" "${fresh}" "gnomon bless and gnomon picture")
 demand(${build}/bin/gnomon docs)
-demand_only("^(techniques/probe/.*|techniques/README.md|README.md) " "${fresh}" "gnomon docs")
+demand_only("^(techniques/probe/.*|techniques/README.md|README.md|docs/gallery.md|docs/pictures/thumbnails/probe.png) "
+  "${fresh}" "gnomon docs")
 
 set(filter Techniques/Promise.*/probe)
 foreach(kind directional spot point)

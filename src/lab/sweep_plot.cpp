@@ -132,7 +132,10 @@ std::string script(const PlotSpec& plot, const std::vector<PlotSeries>& series, 
     const std::vector<std::string> labels = words ? labels_of(series) : std::vector<std::string>();
     const double width = 0.8 / double(series.size());
     if (words) {
-        out += "set xtics rotate by -20 (";
+        // a dozen names overlap at 20 degrees where one of them has more than 10 letters
+        const bool steep
+            = labels.size() > 8 && std::any_of(labels.begin(), labels.end(), [](const std::string& l) { return l.size() > 10; });
+        out += fmt::format("set xtics rotate by {} (", steep ? -40 : -20);
         for (size_t i = 0; i < labels.size(); ++i) out += fmt::format("{}{} {}", i ? ", " : "", plot_text(labels[i]), i);
         out += fmt::format(")\nset xrange [-0.6:{}]\nset boxwidth {}\n", double(labels.size()) - 0.4, width);
         if (!plot.log_y) out += "set yrange [0:*]\n";
