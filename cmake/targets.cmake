@@ -57,6 +57,17 @@ function(gnomon_techniques)
   target_link_libraries(gnomon_shadow INTERFACE gnomon_techniques)
 endfunction()
 
+# What engines link (docs/embedding.md): libgnomon, which shows the functions of include/gnomon/gnomon.h and nothing else.
+function(gnomon_shared_library)
+  add_library(gnomon_shared SHARED $<TARGET_OBJECTS:gnomon_host>)
+  set_target_properties(gnomon_shared PROPERTIES OUTPUT_NAME gnomon VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    LINKER_LANGUAGE CXX EXPORT_NAME gnomon)
+  target_link_libraries(gnomon_shared PRIVATE gnomon_options gnomon::techniques)
+  if(NOT APPLE AND NOT MSVC)
+    target_link_options(gnomon_shared PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+  endif()
+endfunction()
+
 # A text file as `inline constexpr std::string_view <name>` in the generated header <name>.h.
 function(gnomon_embed_text target file name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${file})

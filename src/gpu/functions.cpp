@@ -2,8 +2,6 @@
 #define VOLK_IMPLEMENTATION
 #include "gpu/functions.h"
 
-#include "base/error.h"
-
 namespace gnomon::gpu {
 
 namespace {
@@ -104,10 +102,12 @@ void check(VkResult result, const char* call, std::string_view about)
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:
-        base::fail("out of device memory: {} returned {}{}; choose a smaller --size or a smaller map", call, result_name(result), subject);
+        throw OutOfMemory(fmt::format(
+            "out of device memory: {} returned {}{}; choose a smaller --size or a smaller map", call, result_name(result), subject));
     case VK_ERROR_DEVICE_LOST:
-        base::fail("the device was lost: {} returned {}{}; run these passes one by one, with --validation, to find the one at fault", call,
-            result_name(result), subject);
+        throw DeviceLost(
+            fmt::format("the device was lost: {} returned {}{}; run these passes one by one, with --validation, to find the one at fault",
+                call, result_name(result), subject));
     default:
         base::fail("{} returned {} ({}){}; run again with --validation to see what the driver was given", call, result_name(result),
             int(result), subject);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+
 #include <volk.h>
 
 #include <string_view>
@@ -35,6 +37,14 @@ void load_device(VolkDeviceTable&, const InstanceFunctions&, VkDevice);
 PFN_vkGetInstanceProcAddr system_loader();
 
 std::string_view result_name(VkResult);
+
+/// Errors whose kind callers may act on.
+struct OutOfMemory : base::Error {
+    using Error::Error;
+};
+struct DeviceLost : base::Error {
+    using Error::Error;
+};
 
 /// Throws base::Error with the call, the result and the next step; `about` says what was made or what was running.
 void check(VkResult, const char* call, std::string_view about = {});

@@ -106,8 +106,9 @@ uint32_t MemoryPool::choose_type(const MemoryRequest& request) const
 
 void MemoryPool::out_of_memory(const MemoryRequest& request, uint64_t heap) const
 {
-    base::fail("out of device memory: {} needs {:.1f} MiB, {:.1f} of {:.1f} MiB are taken; choose a smaller --size or a smaller map",
-        request.name, mebibytes(request.needs.size), mebibytes(used_), mebibytes(heap));
+    throw OutOfMemory(
+        fmt::format("out of device memory: {} needs {:.1f} MiB, {:.1f} of {:.1f} MiB are taken; choose a smaller --size or a smaller map",
+            request.name, mebibytes(request.needs.size), mebibytes(used_), mebibytes(heap)));
 }
 
 MemoryBlock& MemoryPool::add_block(uint32_t type, uint64_t size, bool own, const MemoryRequest& request)

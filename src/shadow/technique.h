@@ -113,6 +113,8 @@ struct TechniqueInfo {
     bool exact = false; ///< differs from truth only in a stated band at true edges
     bool counts = false; ///< leaves Frame::counters
     bool temporal = false; ///< keeps state between frames: the lab warms it up and tests it from a reset
+    bool reads_vertices = false; ///< reads Mesh::positions and indices on the CPU; else a scene's triangles may be on the device alone
+    bool (*reads_ids)(std::span<const std::byte> params) = nullptr; ///< tells receivers apart by GBuffer::primitive; null: never
     ParamTable (*params)() = no_params;
     std::string (*unavailable)(const gpu::Device&) = nullptr; ///< "" or the reason, a sentence
     std::unique_ptr<Technique> (*create)(gpu::Device&) = nullptr;

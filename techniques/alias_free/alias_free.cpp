@@ -228,6 +228,7 @@ const gnomon::shadow::TechniqueInfo technique_alias_free = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
+    .reads_ids = [](std::span<const std::byte>) { return true; },
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::alias_free::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::alias_free::AliasFree>(device);

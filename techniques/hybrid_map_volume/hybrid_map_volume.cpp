@@ -136,6 +136,7 @@ const gnomon::shadow::TechniqueInfo technique_hybrid_map_volume = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .counts = true,
+    .reads_vertices = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::hybrid_map_volume::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::hybrid_map_volume::Hybrid>(device);

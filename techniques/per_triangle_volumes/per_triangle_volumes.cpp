@@ -221,6 +221,8 @@ const gnomon::shadow::TechniqueInfo technique_per_triangle_volumes = {
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
     .counts = true,
+    .reads_vertices = true,
+    .reads_ids = [](std::span<const std::byte>) { return true; },
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::per_triangle_volumes::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::per_triangle_volumes::PerTriangleVolumes>(device);

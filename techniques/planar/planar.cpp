@@ -184,6 +184,7 @@ const gnomon::shadow::TechniqueInfo technique_planar = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .partial = true,
+    .reads_vertices = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::planar::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::planar::Planar>(device);

@@ -77,6 +77,12 @@ const gnomon::shadow::TechniqueInfo technique_shadow_map = {
     .cite = "Williams 1978; Reeves, Salesin, Cook 1987",
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
+    .reads_ids =
+        [](std::span<const std::byte> bytes) {
+            gnomon::techniques::shadow_map::Params params;
+            memcpy(&params, bytes.data(), sizeof(params));
+            return params.bias.kind == BIAS_IDS;
+        },
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::shadow_map::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::shadow_map::ShadowMap>(device);

@@ -138,6 +138,7 @@ const gnomon::shadow::TechniqueInfo technique_shadow_texture = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .partial = true,
+    .reads_ids = [](std::span<const std::byte>) { return true; },
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::shadow_texture::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::shadow_texture::ShadowTexture>(device);

@@ -97,6 +97,7 @@ const gnomon::shadow::TechniqueInfo technique_shadow_volumes = {
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .exact = true,
     .counts = true,
+    .reads_vertices = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::shadow_volumes::describe); },
     .create = [](gnomon::gpu::Device&) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::shadow_volumes::ShadowVolumes>();

@@ -219,6 +219,7 @@ const gnomon::shadow::TechniqueInfo technique_virtual_shadow_map = {
     .output = gnomon::shadow::Output::visibility,
     .lights = gnomon::shadow::directional_lights | gnomon::shadow::spot_lights | gnomon::shadow::point_lights,
     .temporal = true,
+    .reads_vertices = true,
     .params = [] { return gnomon::shadow::param_table(gnomon::techniques::virtual_shadow_map::describe); },
     .create = [](gnomon::gpu::Device& device) -> std::unique_ptr<gnomon::shadow::Technique> {
         return std::make_unique<gnomon::techniques::virtual_shadow_map::VirtualShadowMap>(device);

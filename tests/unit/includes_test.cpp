@@ -25,6 +25,7 @@ using gnomon::tests::source_root;
 const std::map<std::string, std::set<std::string>> allowed_folders = {
     {"src/base", {}}, {"src/gpu", {"src/base"}}, {"src/scene", {"src/base"}}, {"src/metrics", {"src/base"}},
     {"src/truth", {"src/scene", "src/base"}}, {"src/shadow", {"src/gpu", "src/scene", "src/base", "shaders"}},
+    {"src/host", {"include/gnomon", "src/shadow", "src/gpu", "src/scene", "src/base", "shaders"}},
     {"src/lab", {"src/shadow", "src/truth", "src/metrics", "src/gpu", "src/scene", "src/base", "shaders"}},
     {"techniques", {"src/shadow"}}, // the registry
     {"techniques/*", {"src/shadow", "src/gpu", "src/scene", "src/base", "shaders"}},
@@ -37,8 +38,8 @@ const std::set<std::string> allowed_in_technique_glsl = {"shaders", "src/shadow/
 
 /// Packages that only these folders know.
 const std::map<std::string, std::set<std::string>> package_users = {
-    {"volk.h", {"src/gpu", "src/shadow", "src/lab", "techniques/*", "apps/*"}},
-    {"vulkan/", {"src/gpu"}},
+    {"volk.h", {"src/gpu", "src/shadow", "src/host", "src/lab", "techniques/*", "apps/*"}},
+    {"vulkan/", {"src/gpu", "include/gnomon"}},
     {"embree3/", {"src/truth"}},
 };
 
