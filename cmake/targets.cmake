@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 add_library(gnomon_options INTERFACE)
 target_include_directories(gnomon_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR})
-target_compile_definitions(gnomon_options INTERFACE VK_NO_PROTOTYPES GNOMON_VERSION="${PROJECT_VERSION}")
+target_compile_definitions(gnomon_options INTERFACE VK_NO_PROTOTYPES GNOMON_VERSION_TEXT="${PROJECT_VERSION}")
 if(MSVC)
   target_compile_options(gnomon_options INTERFACE /W4 /utf-8 $<$<BOOL:${GNOMON_WERROR}>:/WX>)
 else()

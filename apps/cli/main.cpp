@@ -83,7 +83,7 @@ void add_advise(CLI::App& app, cli::Advise& advise)
 int run(int argc, char** argv)
 {
     CLI::App app{"gnomon: real-time shadows, measured against ray-traced truth", "gnomon"};
-    app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
+    app.set_version_flag("--version", "gnomon " GNOMON_VERSION_TEXT);
     app.require_subcommand(1);
     app.footer("Example: gnomon compare citadel --techniques shadow_map,ray_traced -o out/");
 

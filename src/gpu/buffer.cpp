@@ -7,7 +7,7 @@ namespace gnomon::gpu {
 
 Buffer::Impl::~Impl()
 {
-    if (!handle) return;
+    if (!handle || !owned) return;
     context->release([c = context, buffer = handle, held = memory] {
         c->vk.vkDestroyBuffer(c->handle, buffer, nullptr);
         c->memory->free(held);
@@ -20,6 +20,7 @@ Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 Buffer::~Buffer() = default;
 const BufferDesc& Buffer::desc() const { return impl_->desc; }
 VkBuffer Buffer::handle() const { return impl_->handle; }
+uint64_t Buffer::offset() const { return impl_->offset; }
 VkDeviceAddress Buffer::address() const { return impl_->address; }
 std::byte* Buffer::mapped() const { return impl_->desc.memory == Memory::device ? nullptr : impl_->memory.mapped; }
 Buffer::operator bool() const { return impl_ != nullptr; }
@@ -49,6 +50,22 @@ Buffer Device::buffer(const BufferDesc& desc)
     const VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, b.handle};
     b.address = c.vk.vkGetBufferDeviceAddress(c.handle, &address);
     c.name(VK_OBJECT_TYPE_BUFFER, uint64_t(b.handle), desc.name);
+    return buffer;
+}
+
+Buffer Device::adopt_buffer(VkBuffer handle, const BufferDesc& desc, uint64_t offset)
+{
+    Buffer buffer;
+    buffer.impl_ = std::make_unique<Buffer::Impl>();
+    Buffer::Impl& b = *buffer.impl_;
+    b.context = impl_.get();
+    b.desc = desc;
+    b.handle = handle;
+    b.owned = false;
+    b.offset = offset;
+    // What the caller did to it before is not known here: the first barrier waits for everything.
+    b.state.write_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    b.state.write_access = VK_ACCESS_2_MEMORY_WRITE_BIT;
     return buffer;
 }
 

@@ -17,9 +17,10 @@ Context::Context(Device& d)
 Context::~Context()
 {
     if (!handle) return;
-    vk.vkDeviceWaitIdle(handle);
+    if (queue) vk.vkDeviceWaitIdle(handle); // else the caller says when, and may have other work in flight
     for (auto& [ticket, submission] : open) recycle(std::move(submission));
     open.clear();
+    deferred_.clear(); // freed with their pool
     transients.clear();
     collect();
     programs.reset();
@@ -117,24 +118,33 @@ void Context::make_layouts()
     check(vk.vkCreateDescriptorSetLayout(handle, &table_info, nullptr, &table_layout), "vkCreateDescriptorSetLayout", "the texture table");
 }
 
+namespace {
+
+struct Recording {
+    bool& on;
+    explicit Recording(bool& flag)
+        : on(flag)
+    {
+        on = true;
+    }
+    ~Recording() { on = false; }
+};
+
+} // namespace
+
 void Context::run(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
 {
     if (recording_)
         throw std::logic_error(
             fmt::format("{} was asked for while a pass list is being recorded; do it before the list is submitted", about));
+    if (!queue) {
+        defer(about, record);
+        return;
+    }
     check(vk.vkResetCommandPool(handle, command_pool, 0), "vkResetCommandPool", about);
     const VkCommandBufferBeginInfo begin{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     check(vk.vkBeginCommandBuffer(command_buffer, &begin), "vkBeginCommandBuffer", about);
-    struct Recording {
-        bool& on;
-        explicit Recording(bool& flag)
-            : on(flag)
-        {
-            on = true;
-        }
-        ~Recording() { on = false; }
-    };
     {
         const Recording guard(recording_);
         record(command_buffer);
@@ -156,12 +166,38 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
     check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
 }
 
+void Context::defer(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
+{
+    const VkCommandBufferAllocateInfo allocate{
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, command_pool, VK_COMMAND_BUFFER_LEVEL_SECONDARY, 1};
+    VkCommandBuffer commands;
+    check(vk.vkAllocateCommandBuffers(handle, &allocate, &commands), "vkAllocateCommandBuffers", about);
+    deferred_.push_back(commands);
+    const VkCommandBufferInheritanceInfo inherited{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
+    const VkCommandBufferBeginInfo begin{
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, &inherited};
+    check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer", about);
+    {
+        const Recording guard(recording_);
+        record(commands);
+    }
+    check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer", about);
+}
+
+void Context::run_deferred(VkCommandBuffer commands, Submission& submission)
+{
+    if (deferred_.empty()) return;
+    vk.vkCmdExecuteCommands(commands, uint32_t(deferred_.size()), deferred_.data());
+    submission.deferred = std::move(deferred_);
+    deferred_.clear();
+}
+
 void Context::release(std::function<void()> free)
 {
-    if (open.empty())
+    if (open.empty() && deferred_.empty())
         free();
     else
-        garbage_.push_back({last_ticket, std::move(free)});
+        garbage_.push_back({deferred_.empty() ? last_ticket : last_ticket + 1, std::move(free)});
 }
 
 void Context::retire(uint64_t ticket)
@@ -176,7 +212,7 @@ void Context::retire(uint64_t ticket)
 
 void Context::collect()
 {
-    const uint64_t oldest = open.empty() ? ~uint64_t(0) : open.begin()->first;
+    const uint64_t oldest = !open.empty() ? open.begin()->first : deferred_.empty() ? ~uint64_t(0) : last_ticket + 1;
     std::vector<Garbage> ripe;
     for (auto& g : garbage_)
         if (g.ticket < oldest) ripe.push_back(std::move(g));
@@ -195,6 +231,7 @@ void Context::recycle(Submission&& done)
         vk.vkResetDescriptorPool(handle, pool, 0);
         free_pools.push_back(pool);
     }
+    if (!done.deferred.empty()) vk.vkFreeCommandBuffers(handle, command_pool, uint32_t(done.deferred.size()), done.deferred.data());
     done = {};
 }
 
@@ -238,7 +275,7 @@ VkImageMemoryBarrier2 to_vulkan(const Barrier& b, const Range& range, const Imag
 VkBufferMemoryBarrier2 to_vulkan(const Barrier& b, const Buffer& buffer)
 {
     return {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, b.src_stages, b.src_access, b.dst_stages, b.dst_access,
-        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffer.handle(), 0, VK_WHOLE_SIZE};
+        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffer.handle(), buffer.offset(), buffer.offset() ? buffer.desc().bytes : VK_WHOLE_SIZE};
 }
 
 void Context::barrier(VkCommandBuffer commands, const Image& image, std::span<const ImageBarrier> barriers) const

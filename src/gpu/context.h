@@ -53,6 +53,7 @@ struct Submission {
     std::vector<Buffer> buffers;
     Buffer constants;
     std::vector<VkDescriptorPool> descriptor_pools;
+    std::vector<VkCommandBuffer> deferred; ///< what ran at the list's head
 };
 
 struct Context {
@@ -63,7 +64,9 @@ struct Context {
     void start(const std::set<std::string, std::less<>>& enabled); ///< after the device and its functions are there
 
     /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device.
+    /// Without a queue: records for the head of the next list.
     void run(std::string_view about, const std::function<void(VkCommandBuffer)>&);
+    void run_deferred(VkCommandBuffer, Submission&);
     /// Runs now where nothing recorded for a caller is in flight, else once every open ticket has been retired.
     void release(std::function<void()>);
     void retire(uint64_t ticket);
@@ -92,6 +95,8 @@ struct Context {
     std::array<uint8_t, VK_UUID_SIZE> device_uuid{};
     std::set<std::string, std::less<>> extensions;
     bool anisotropy = false;
+    VkPipelineCache callers_cache = VK_NULL_HANDLE;
+    bool cache_file = true;
 
     std::unique_ptr<MemoryPool> memory;
     std::array<VkSampler, 8> samplers{};
@@ -112,12 +117,14 @@ private:
     void make_samplers();
     void make_layouts();
     void collect();
+    void defer(std::string_view about, const std::function<void(VkCommandBuffer)>&);
 
     struct Garbage {
         uint64_t ticket;
         std::function<void()> free;
     };
     std::vector<Garbage> garbage_;
+    std::vector<VkCommandBuffer> deferred_; ///< secondary ones, for the head of the next recorded list
     bool recording_ = false; ///< a draw function that uploads would end the list's own command buffer
 };
 

@@ -146,6 +146,8 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& given)
     c.info.float_atomics &= has(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
     c.info.conservative_raster &= has(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
     c.info.fragment_interlock &= has(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
+    c.callers_cache = given.pipeline_cache;
+    c.cache_file = given.cache_file;
     c.start(enabled);
     return device;
 }

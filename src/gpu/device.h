@@ -42,10 +42,13 @@ struct AdoptedDevice {
     VkInstance instance;
     VkPhysicalDevice physical;
     VkDevice device;
-    VkQueue queue;
+    VkQueue queue; ///< null: nothing is ever submitted or waited for; uploads and builds run at the head of the next recorded list, and
+                   ///< `submit` and `read_back` are refused
     uint32_t queue_family;
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
     std::vector<std::string> enabled_extensions;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< the caller's; null: one of our own
+    bool cache_file = true; ///< pipelines are kept in a file between runs, where the cache is our own
 };
 
 /// Time of one pass on the device, by timestamps.
@@ -57,6 +60,12 @@ struct Submitted {
     std::vector<PassTime> times; ///< in the order of the list
     uint64_t transient_bytes; ///< memory of the list's transients
     std::map<std::string, uint64_t> group_bytes; ///< the same by the group (PassList::group) that made them
+};
+
+/// An image that a recorded list leaves in a layout, its writes visible to whatever comes after.
+struct ImageLayout {
+    Image* image;
+    VkImageLayout layout;
 };
 
 /// Every failed Vulkan call throws base::Error with the call's name, the result and what to do (out of memory: smaller sizes;
@@ -81,6 +90,8 @@ public:
     Image image(const ImageDesc&);
     Image adopt_image(VkImage, const ImageDesc&, VkImageLayout); ///< the handle stays the caller's (an engine's target, a swapchain image)
     Buffer buffer(const BufferDesc&);
+    /// `desc.bytes` of a buffer of the caller's, from `offset` on (a multiple of minStorageBufferOffsetAlignment): for bindings.
+    Buffer adopt_buffer(VkBuffer, const BufferDesc&, uint64_t offset);
     /// Uploads through a staging buffer and waits. `texels` tightly packed.
     void upload(Image&, std::span<const std::byte> texels, uint32_t layer = 0, uint32_t mip = 0);
     void upload(Buffer&, std::span<const std::byte>, uint64_t offset = 0);
@@ -108,7 +119,7 @@ public:
     /// Records into a command buffer of the caller's; no submit, no wait. Transients live until `retire`, whose ticket the caller
     /// passes once that command buffer has finished. The list's images and buffers then stand as after the list: submit that command
     /// buffer before anything else here uses them.
-    uint64_t record(PassList&&, VkCommandBuffer);
+    uint64_t record(PassList&&, VkCommandBuffer, std::span<const ImageLayout> leave = {});
     void retire(uint64_t ticket);
 
     /// One layer and mip as floats: colour formats by their channel count (sRGB decoded, unorm to [0,1], uint as value), depth as 1.

@@ -54,7 +54,8 @@ Programs::~Programs()
 {
     programs_.clear();
     retired_.clear();
-    if (changed_) save_cache();
+    if (cache_ == context_.callers_cache) return;
+    if (changed_ && context_.cache_file) save_cache();
     context_.vk.vkDestroyPipelineCache(context_.handle, cache_, nullptr);
 }
 
@@ -201,9 +202,13 @@ std::filesystem::path Programs::cache_file() const
 // Drivers trust this data, so the file begins with its own digest: a damaged one is as good as none.
 void Programs::load_cache()
 {
+    if (context_.callers_cache) {
+        cache_ = context_.callers_cache;
+        return;
+    }
     std::vector<std::byte> file;
     try {
-        if (std::filesystem::exists(cache_file())) file = base::read_file(cache_file(), uint64_t(256) << 20);
+        if (context_.cache_file && std::filesystem::exists(cache_file())) file = base::read_file(cache_file(), uint64_t(256) << 20);
     } catch (const std::exception&) {
         file.clear();
     }

@@ -226,7 +226,8 @@ void Recorder::write_set(const ProgramImpl& program, VkDescriptorSet set)
                 image_uses_[binding_use_[i]].access.layout};
             write.pImageInfo = &images[i];
         } else {
-            buffers[i] = {buffer(b.buffer).handle(), 0, VK_WHOLE_SIZE};
+            const Buffer& source = buffer(b.buffer);
+            buffers[i] = {source.handle(), source.offset(), source.offset() ? source.desc().bytes : VK_WHOLE_SIZE};
             write.pBufferInfo = &buffers[i];
         }
         writes.push_back(write);

@@ -84,6 +84,7 @@ public:
     ~Buffer();
     const BufferDesc& desc() const;
     VkBuffer handle() const;
+    uint64_t offset() const; ///< of the first byte within handle(); 0 but for adopted ones
     VkDeviceAddress address() const;
     std::byte* mapped() const; ///< nullptr for device memory
     explicit operator bool() const;

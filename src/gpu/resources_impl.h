@@ -26,6 +26,8 @@ struct Buffer::Impl {
     Context* context = nullptr;
     BufferDesc desc;
     VkBuffer handle = VK_NULL_HANDLE;
+    bool owned = true;
+    uint64_t offset = 0;
     VkDeviceAddress address = 0;
     Allocation memory;
     BufferState state;

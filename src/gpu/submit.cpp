@@ -76,6 +76,7 @@ Submitted Device::submit(PassList&& list)
     ListData& l = *consumed.impl_;
     Submitted result{};
     if (l.passes.empty()) return result;
+    if (!c.queue) throw std::logic_error("submit: this device has no queue; record the list into a command buffer");
     c.transients.age();
     const VkQueryPool timestamps = timestamps_for(c, uint32_t(l.passes.size() + 1));
     Held held{c};
@@ -89,15 +90,20 @@ Submitted Device::submit(PassList&& list)
     return result;
 }
 
-uint64_t Device::record(PassList&& list, VkCommandBuffer commands)
+uint64_t Device::record(PassList&& list, VkCommandBuffer commands, std::span<const ImageLayout> leave)
 {
     Context& c = *impl_;
     PassList consumed(std::move(list));
     c.transients.age();
     Held held{c};
     Recorder recorder(c, *consumed.impl_, held.submission, commands);
+    c.run_deferred(commands, held.submission);
     recorder.record(VK_NULL_HANDLE);
     recorder.commit();
+    for (const auto& [image, layout] : leave) {
+        const Access rest{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, true, true};
+        c.barrier(commands, *image, transition(image->state(), whole(image->state()), rest));
+    }
     c.open.emplace(++c.last_ticket, std::move(held.submission));
     held.submission = {};
     return c.last_ticket;

@@ -29,6 +29,11 @@ VkBufferImageCopy copy_of(const ImageDesc& d, uint32_t layer, uint32_t mip)
     return {0, 0, 0, {main_aspect(d.format), mip, layer, 1}, {0, 0, 0}, {uint32_t(size.width), uint32_t(size.height), 1}};
 }
 
+void require_queue(const Context& c)
+{
+    if (!c.queue) throw std::logic_error("read_back: this device has no queue; copy into a buffer of your own");
+}
+
 void copy_buffer(Context& c, VkCommandBuffer commands, VkBuffer from, Buffer& to, uint64_t offset, uint64_t bytes)
 {
     c.barrier(commands, to, transition(to.state(), access_of(Use::copy_to, PassKind::transfer, false)));
@@ -71,9 +76,9 @@ void Device::upload(Buffer& to, std::span<const std::byte> bytes, uint64_t offse
     Context& c = *impl_;
     // A scene's largest buffer would otherwise be held twice.
     constexpr uint64_t chunk = uint64_t(64) << 20;
-    const Buffer staging = buffer({std::min<uint64_t>(chunk, bytes.size()), 0, Memory::upload, "staging for " + to.desc().name});
     for (uint64_t done = 0; done < bytes.size(); done += chunk) {
         const uint64_t size = std::min<uint64_t>(chunk, bytes.size() - done);
+        const Buffer staging = buffer({size, 0, Memory::upload, "staging for " + to.desc().name});
         std::memcpy(staging.mapped(), bytes.data() + done, size);
         c.run("an upload to buffer '" + to.desc().name + "'",
             [&](VkCommandBuffer commands) { copy_buffer(c, commands, staging.handle(), to, offset + done, size); });
@@ -113,6 +118,7 @@ std::vector<std::byte> Device::read_back_bytes(Image& image, uint32_t layer, uin
     if (image.state().part(layer, mip).layout == VK_IMAGE_LAYOUT_UNDEFINED)
         throw std::logic_error(fmt::format("read_back: nothing wrote image '{}', layer {}, mip {}", image.desc().name, layer, mip));
     Context& c = *impl_;
+    require_queue(c);
     const Buffer staging = buffer({bytes, 0, Memory::read_back, "read-back of " + image.desc().name});
     const VkBufferImageCopy region = copy_of(image.desc(), layer, mip);
     c.run("a read-back of image '" + image.desc().name + "'", [&](VkCommandBuffer commands) {
@@ -138,6 +144,7 @@ std::vector<std::byte> Device::read_back(Buffer& from)
     const uint64_t bytes = from.desc().bytes;
     if (from.mapped()) return {from.mapped(), from.mapped() + bytes};
     Context& c = *impl_;
+    require_queue(c);
     Buffer staging = buffer({bytes, 0, Memory::read_back, "read-back of " + from.desc().name});
     c.run("a read-back of buffer '" + from.desc().name + "'", [&](VkCommandBuffer commands) {
         c.barrier(commands, from, transition(from.state(), access_of(Use::copy_from, PassKind::transfer, false)));

@@ -91,7 +91,7 @@ size_t own_passes(const Json& line)
 
 Provenance provenance(const gpu::Device& device)
 {
-    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION, std::string(commit())};
+    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION_TEXT, std::string(commit())};
 }
 
 void Results::add(const std::string& line, const fs::path& file, size_t number)
