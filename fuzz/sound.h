@@ -24,7 +24,8 @@ inline std::string_view unsound(const Scene& scene)
         if (mesh.material < 0 || size_t(mesh.material) >= scene.materials.size()) return "a mesh has a material that exists";
         if (std::ranges::any_of(mesh.indices, [&](uint32_t i) { return i >= vertices; })) return "a triangle has corners that exist";
         if (!std::ranges::all_of(mesh.positions, finite)) return "positions are finite";
-        if (std::ranges::any_of(mesh.normals, [](vec3 n) { return !(std::abs(glm::length(n) - 1.0f) <= 1e-3f); })) return "normals are unit";
+        if (std::ranges::any_of(mesh.normals, [](vec3 n) { return !(std::abs(glm::length(n) - 1.0f) <= 1e-3f); }))
+            return "normals are unit";
     }
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || size_t(instance.mesh) >= scene.meshes.size()) return "an instance has a mesh that exists";

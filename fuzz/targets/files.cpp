@@ -20,7 +20,8 @@ namespace {
 /// What an input may name: a model and images for lights.
 void write_companions()
 {
-    fuzz::write("model.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0},
+    fuzz::write(
+        "model.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0},
         "material":0}]}],"materials":[{"name":"leaves"}],"accessors":[{"bufferView":0,"type":"VEC3","componentType":5126,"count":3}],"bufferViews":[{"buffer":0,
         "byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     base::Picture picture({3, 2}, 3, 0.5f);

@@ -19,7 +19,8 @@ void check_json_depth(std::string_view text, std::string_view file)
             ++depth;
         else if (!quoted && (c == ']' || c == '}'))
             --depth;
-        if (depth > deepest_json) fail("{}: brackets are nested more than {} deep; the file is damaged", file, deepest_json);
+        if (depth > deepest_json)
+            fail("{} is no JSON to be read: its brackets are nested more than {} deep; the file is damaged", file, deepest_json);
     }
 }
 
