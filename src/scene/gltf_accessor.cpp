@@ -104,6 +104,7 @@ template <class Out> void apply_sparse(Document& document, const Accessor& a, Ou
 
 template <class Out> void read(Document& document, const Accessor& a, Out* out)
 {
+    document.take_read(a.count * uint64_t(a.width));
     if (a.bytes.empty())
         std::fill_n(out, a.count * size_t(a.width), Out(0));
     else

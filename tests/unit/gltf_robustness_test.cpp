@@ -254,6 +254,17 @@ TEST(gltf_robustness, changed_numbers)
     EXPECT_GT(number, 100u);
 }
 
+TEST(gltf_robustness, places_for_nothing_cost_nothing)
+{
+    GltfBuilder b;
+    b.triangle();
+    b.node({{"mesh", 0}});
+    const int broken = b.mesh({{"attributes", {{"POSITION", 99}}}});
+    const json places = {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", b.vec3s(std::vector<vec3>(200000))}}}}}};
+    for (int i = 0; i < 2000; ++i) b.node({{"mesh", broken}, {"extensions", places}});
+    EXPECT_EQ(b.load().instances.size(), 1u) << "and not after four hundred million matrices";
+}
+
 TEST(gltf_robustness, elements_without_data_are_counted_together)
 {
     GltfBuilder b;
