@@ -42,7 +42,9 @@ std::string unfit_png(std::span<const std::byte> file)
 
 std::string unfit_jpeg(std::span<const std::byte> file)
 {
-    constexpr uint8_t huffman_tables = 0xc4, start_of_scan = 0xda;
+    constexpr uint8_t huffman_tables = 0xc4, start_of_scan = 0xda, start_of_image = 0xd8;
+    // The decoder also takes files with fill bytes before their first mark, which would put this walk out of step.
+    if (byte_at(file, 1) != start_of_image) return "begins with no mark of a JPEG";
     int scans = 0;
     // Segments are walked up to the first scan. From there on every mark counts: compressed data cannot hold one.
     for (size_t at = 2; at + 1 < file.size();) {

@@ -136,6 +136,8 @@ TEST_F(BaseImage, headers_that_promise_more_than_the_file_holds_are_refused)
         = {std::byte(0xff), std::byte(0xd8), std::byte(0xff), std::byte(0xc4), std::byte(1), std::byte(35), std::byte(0)};
     tables.resize(tables.size() + 16 + 272, std::byte(17));
     EXPECT_NE(refusal(tables).find("256 codes"), std::string::npos) << refusal(tables);
+    tables.insert(tables.begin(), std::byte(0xff));
+    EXPECT_NE(refusal(tables).find("begins with no mark"), std::string::npos) << refusal(tables);
     std::vector<std::byte> scans = {std::byte(0xff), std::byte(0xd8)};
     for (int i = 0; i < 101; ++i) scans.insert(scans.end(), {std::byte(0xff), std::byte(0xda), std::byte(0), std::byte(2)});
     EXPECT_NE(refusal(scans).find("100 scans"), std::string::npos) << refusal(scans);
