@@ -128,7 +128,8 @@ Accessor open_accessor(Document& document, const Value& reference, std::initiali
     if (count > std::numeric_limits<uint32_t>::max()) value.bad("states {} elements, which is too many", count);
     // Without a buffer view nothing but this bounds the memory that a wrong count takes, or a thousand users of it.
     if (!stored && !document.take_unstored(count * uint64_t(a.width)))
-        value.bad("states {} elements without a buffer view; in all, {} such numbers are read", count, Document::most_unstored);
+        value.bad("states {} elements without a buffer view, which is too many; in all, {} such numbers are read", count,
+            Document::most_unstored);
     a.count = size_t(count);
     a.stride = element;
     if (stored) {

@@ -67,8 +67,9 @@ std::vector<dmat4> Loader::placements(const Value& node, const dmat4& world)
     const auto read = [&]<class V>(const char* name, const char* type, std::vector<V>& values) {
         const Value reference = attributes.find(name);
         if (!reference) return;
+        const Value stored = document_.element("accessors", reference);
+        if (!stored.find("bufferView")) stored.bad("has no data"); // and would place its mesh a million times on one spot
         const Accessor accessor = open_accessor(document_, reference, {type});
-        if (accessor.bytes.empty()) accessor.value.bad("has no data"); // and would place its mesh a million times on one spot
         values = read_vectors<V>(document_, accessor);
     };
     read("TRANSLATION", "VEC3", translations);
