@@ -9,11 +9,11 @@
 #include <cstring>
 
 #define NEIGHBOUR __attribute__((visibility("default"), used))
-#define POISON(name)                                                   \
-    NEIGHBOUR void name()                                              \
-    {                                                                  \
-        std::fputs("Gnomon called the engine's " #name "\n", stderr);  \
-        std::abort();                                                  \
+#define POISON(name)                                                                                                                       \
+    NEIGHBOUR void name()                                                                                                                  \
+    {                                                                                                                                      \
+        std::fputs("Gnomon called the engine's " #name "\n", stderr);                                                                      \
+        std::abort();                                                                                                                      \
     }
 
 extern "C" {
