@@ -23,3 +23,10 @@ package_test(headers VULKAN=${Vulkan_INCLUDE_DIR})
 package_test(library)
 package_test(consumer)
 package_test(debian CPACK=${CMAKE_CPACK_COMMAND} PROGRAM=$<TARGET_EXISTS:gnomon>)
+
+# The example of an engine, built against the prefix and run.
+package_test(host_engine)
+set_tests_properties(package.host_engine PROPERTIES FIXTURES_SETUP host_engine)
+gnomon_program(gnomon_package_tests SOURCES package/host_engine_test.cpp DEPENDS GTest::gtest_main)
+target_compile_definitions(gnomon_package_tests PRIVATE HOST_ENGINE="${package_folder}/host_engine/build/host_engine")
+gtest_discover_tests(gnomon_package_tests DISCOVERY_MODE PRE_TEST PROPERTIES LABELS package FIXTURES_REQUIRED host_engine)

@@ -146,7 +146,7 @@ void Renderer::draw(uint32_t frame, size_t technique)
                   VK_ACCESS_2_MEMORY_WRITE_BIT, stages, access);
           };
     const bool stencil = targets_.depth.format == VK_FORMAT_D24_UNORM_S8_UINT;
-    fresh(targets_.depth, VK_IMAGE_ASPECT_DEPTH_BIT | (stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : VkImageAspectFlags(0)),
+    fresh(targets_.depth, VK_IMAGE_ASPECT_DEPTH_BIT | (VkImageAspectFlags(stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)),
         VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, depth_stages, depth_access);
     for (const Image& image : images_of_targets())
         if (image.image != targets_.depth.image && image.image != targets_.visibility.image)
