@@ -106,7 +106,7 @@ typedef struct gnomon_space {
 
 /* A part of a buffer that was made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. */
 typedef struct gnomon_stream {
-    VkBuffer buffer;
+    VkBuffer buffer; /* its size is a multiple of 4 */
     VkDeviceSize offset; /* bytes to the first element; a multiple of 2 */
     uint32_t stride; /* bytes; a multiple of 2 */
     VkFormat format; /* positions: R32G32B32(A32)_SFLOAT, R16G16B16A16_SFLOAT, _SNORM or _UNORM. Texture coordinates: R32G32_SFLOAT,

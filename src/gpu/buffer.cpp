@@ -21,6 +21,7 @@ Buffer::~Buffer() = default;
 const BufferDesc& Buffer::desc() const { return impl_->desc; }
 VkBuffer Buffer::handle() const { return impl_->handle; }
 uint64_t Buffer::offset() const { return impl_->offset; }
+uint64_t Buffer::range() const { return impl_->owned ? VK_WHOLE_SIZE : impl_->desc.bytes; }
 VkDeviceAddress Buffer::address() const { return impl_->address; }
 std::byte* Buffer::mapped() const { return impl_->desc.memory == Memory::device ? nullptr : impl_->memory.mapped; }
 Buffer::operator bool() const { return impl_ != nullptr; }

@@ -31,6 +31,7 @@ Context::~Context()
     vk.vkDestroyQueryPool(handle, timestamps, nullptr);
     vk.vkDestroyFence(handle, fence, nullptr);
     vk.vkDestroyCommandPool(handle, command_pool, nullptr);
+    vk.vkDestroyCommandPool(handle, secondary_pool, nullptr);
     memory.reset();
     if (own_instance) vk.vkDestroyDevice(handle, nullptr);
 }
@@ -50,6 +51,7 @@ void Context::start(const std::set<std::string, std::less<>>& enabled)
     const VkCommandPoolCreateInfo pool{
         VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family};
     check(vk.vkCreateCommandPool(handle, &pool, nullptr, &command_pool), "vkCreateCommandPool");
+    check(vk.vkCreateCommandPool(handle, &pool, nullptr, &secondary_pool), "vkCreateCommandPool");
     const VkCommandBufferAllocateInfo buffer{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, command_pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     check(vk.vkAllocateCommandBuffers(handle, &buffer, &command_buffer), "vkAllocateCommandBuffers");
@@ -166,17 +168,25 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
     check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
 }
 
-void Context::defer(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
+VkCommandBuffer Context::begin_secondary(std::string_view about)
 {
     const VkCommandBufferAllocateInfo allocate{
-        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, command_pool, VK_COMMAND_BUFFER_LEVEL_SECONDARY, 1};
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, secondary_pool, VK_COMMAND_BUFFER_LEVEL_SECONDARY, 1};
     VkCommandBuffer commands;
     check(vk.vkAllocateCommandBuffers(handle, &allocate, &commands), "vkAllocateCommandBuffers", about);
-    deferred_.push_back(commands);
     const VkCommandBufferInheritanceInfo inherited{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
     const VkCommandBufferBeginInfo begin{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, &inherited};
-    check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer", about);
+    const VkResult result = vk.vkBeginCommandBuffer(commands, &begin);
+    if (result != VK_SUCCESS) vk.vkFreeCommandBuffers(handle, secondary_pool, 1, &commands);
+    check(result, "vkBeginCommandBuffer", about);
+    return commands;
+}
+
+void Context::defer(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
+{
+    const VkCommandBuffer commands = begin_secondary(about);
+    deferred_.push_back(commands);
     {
         const Recording guard(recording_);
         record(commands);
@@ -184,12 +194,11 @@ void Context::defer(std::string_view about, const std::function<void(VkCommandBu
     check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer", about);
 }
 
-void Context::run_deferred(VkCommandBuffer commands, Submission& submission)
+void Context::execute(VkCommandBuffer commands, Submission& submission)
 {
-    if (deferred_.empty()) return;
-    vk.vkCmdExecuteCommands(commands, uint32_t(deferred_.size()), deferred_.data());
-    submission.deferred = std::move(deferred_);
+    submission.secondary.insert(submission.secondary.begin(), deferred_.begin(), deferred_.end());
     deferred_.clear();
+    vk.vkCmdExecuteCommands(commands, uint32_t(submission.secondary.size()), submission.secondary.data());
 }
 
 void Context::release(std::function<void()> free)
@@ -231,7 +240,7 @@ void Context::recycle(Submission&& done)
         vk.vkResetDescriptorPool(handle, pool, 0);
         free_pools.push_back(pool);
     }
-    if (!done.deferred.empty()) vk.vkFreeCommandBuffers(handle, command_pool, uint32_t(done.deferred.size()), done.deferred.data());
+    if (!done.secondary.empty()) vk.vkFreeCommandBuffers(handle, secondary_pool, uint32_t(done.secondary.size()), done.secondary.data());
     done = {};
 }
 
@@ -275,7 +284,7 @@ VkImageMemoryBarrier2 to_vulkan(const Barrier& b, const Range& range, const Imag
 VkBufferMemoryBarrier2 to_vulkan(const Barrier& b, const Buffer& buffer)
 {
     return {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, b.src_stages, b.src_access, b.dst_stages, b.dst_access,
-        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffer.handle(), buffer.offset(), buffer.offset() ? buffer.desc().bytes : VK_WHOLE_SIZE};
+        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffer.handle(), buffer.offset(), buffer.range()};
 }
 
 void Context::barrier(VkCommandBuffer commands, const Image& image, std::span<const ImageBarrier> barriers) const

@@ -53,7 +53,7 @@ struct Submission {
     std::vector<Buffer> buffers;
     Buffer constants;
     std::vector<VkDescriptorPool> descriptor_pools;
-    std::vector<VkCommandBuffer> deferred; ///< what ran at the list's head
+    std::vector<VkCommandBuffer> secondary; ///< of a list recorded for a caller
 };
 
 struct Context {
@@ -66,7 +66,9 @@ struct Context {
     /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device.
     /// Without a queue: records for the head of the next list.
     void run(std::string_view about, const std::function<void(VkCommandBuffer)>&);
-    void run_deferred(VkCommandBuffer, Submission&);
+    VkCommandBuffer begin_secondary(std::string_view about);
+    /// Puts what was deferred, then the submission's own, into the caller's commands.
+    void execute(VkCommandBuffer, Submission&);
     /// Runs now where nothing recorded for a caller is in flight, else once every open ticket has been retired.
     void release(std::function<void()>);
     void retire(uint64_t ticket);
@@ -100,7 +102,7 @@ struct Context {
 
     std::unique_ptr<MemoryPool> memory;
     std::array<VkSampler, 8> samplers{};
-    VkCommandPool command_pool = VK_NULL_HANDLE;
+    VkCommandPool command_pool = VK_NULL_HANDLE, secondary_pool = VK_NULL_HANDLE; ///< the first is reset as a whole
     VkCommandBuffer command_buffer = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
     VkQueryPool timestamps = VK_NULL_HANDLE;

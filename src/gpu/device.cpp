@@ -19,13 +19,6 @@ std::string lower(std::string_view text)
     return out;
 }
 
-std::string lacks(const DeviceInfo& info)
-{
-    return fmt::format("device '{}' ({}) lacks what Gnomon needs: {}; {}", info.name, info.driver, info.missing,
-        info.software ? "install Mesa 25 or later (Debian 12: from bookworm-backports)"
-                      : "update its driver, or choose another with --device");
-}
-
 /// Real GPUs before software.
 int rank(const FoundDevice& d)
 {

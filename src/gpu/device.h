@@ -97,6 +97,7 @@ public:
     void upload(Buffer&, std::span<const std::byte>, uint64_t offset = 0);
     void generate_mips(Image&); ///< linear blits
     TextureTable texture_table(std::span<const Image* const>, std::span<const Sampler>);
+    TextureTable texture_table(std::span<const VkDescriptorImageInfo>); ///< of the caller's views and samplers; a null view: never read
 
     /// Names are as in the table of embedded shaders: path without ".glsl" ("techniques/pcss/pcss_resolve.frag"). Programs live as
     /// long as the device; the same request returns the same program. Specialisation constants by id.

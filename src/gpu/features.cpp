@@ -141,6 +141,29 @@ std::string baseline_text()
     return text + ", subgroup ballot and arithmetic in compute, timestamps, D32_SFLOAT and a depth format with stencil";
 }
 
+std::string lacks(const DeviceInfo& info)
+{
+    return fmt::format("device '{}' ({}) lacks what Gnomon needs: {}; {}", info.name, info.driver, info.missing,
+        info.software ? "install Mesa 25 or later (Debian 12: from bookworm-backports)"
+                      : "update its driver, or choose another with --device");
+}
+
+std::string require_features(PFN_vkGetInstanceProcAddr get, VkInstance instance, VkPhysicalDevice physical, const CallersFeatures& callers)
+{
+    const InstanceFunctions vk = load_instance(get, instance);
+    const FoundDevice found = inspect(vk, physical);
+    if (!found.info.missing.empty()) return lacks(found.info);
+    FeatureChain supported({}), wanted({}), own({});
+    vk.vkGetPhysicalDeviceFeatures2(physical, &supported.core);
+    choose_features(wanted, supported);
+    own.core.features = *callers.core, own.v11 = *callers.v11, own.v12 = *callers.v12, own.v13 = *callers.v13;
+    const auto add = [&](const Feature& feature) { feature.at(own) = feature.at(own) || feature.at(wanted); };
+    for (const auto& feature : baseline) add(feature);
+    for (const auto& feature : optional) add(feature);
+    *callers.core = own.core.features, *callers.v11 = own.v11, *callers.v12 = own.v12, *callers.v13 = own.v13;
+    return {};
+}
+
 FoundDevice inspect(const InstanceFunctions& vk, VkPhysicalDevice physical)
 {
     FoundDevice found;

@@ -33,6 +33,16 @@ struct FeatureChain {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
 };
 
+/// A caller's own structures, in which the features that Gnomon needs, and those that it can use, are set.
+struct CallersFeatures {
+    VkPhysicalDeviceFeatures* core;
+    VkPhysicalDeviceVulkan11Features* v11;
+    VkPhysicalDeviceVulkan12Features* v12;
+    VkPhysicalDeviceVulkan13Features* v13;
+};
+/// "", or a sentence that names what the device lacks; then nothing is set.
+std::string require_features(PFN_vkGetInstanceProcAddr, VkInstance, VkPhysicalDevice, const CallersFeatures&);
+
 struct FoundDevice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties{};
@@ -42,6 +52,8 @@ struct FoundDevice {
     uint32_t timestamp_bits = 0;
     bool anisotropy = false;
 };
+/// The sentence for a device of which `missing` is not empty.
+std::string lacks(const DeviceInfo&);
 FoundDevice inspect(const InstanceFunctions&, VkPhysicalDevice);
 
 /// Sets in `wanted` what Gnomon uses of `supported` (the baseline and every optional feature present).

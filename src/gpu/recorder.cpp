@@ -227,7 +227,7 @@ void Recorder::write_set(const ProgramImpl& program, VkDescriptorSet set)
             write.pImageInfo = &images[i];
         } else {
             const Buffer& source = buffer(b.buffer);
-            buffers[i] = {source.handle(), source.offset(), source.offset() ? source.desc().bytes : VK_WHOLE_SIZE};
+            buffers[i] = {source.handle(), source.offset(), source.range()};
             write.pBufferInfo = &buffers[i];
         }
         writes.push_back(write);

@@ -85,6 +85,7 @@ public:
     const BufferDesc& desc() const;
     VkBuffer handle() const;
     uint64_t offset() const; ///< of the first byte within handle(); 0 but for adopted ones
+    uint64_t range() const; ///< from there on, in bytes or VK_WHOLE_SIZE
     VkDeviceAddress address() const;
     std::byte* mapped() const; ///< nullptr for device memory
     explicit operator bool() const;

@@ -96,14 +96,19 @@ uint64_t Device::record(PassList&& list, VkCommandBuffer commands, std::span<con
     PassList consumed(std::move(list));
     c.transients.age();
     Held held{c};
-    Recorder recorder(c, *consumed.impl_, held.submission, commands);
-    c.run_deferred(commands, held.submission);
+    // A list that fails half way must leave no trace in the caller's commands.
+    const VkCommandBuffer own = c.begin_secondary("a pass list");
+    held.submission.secondary.push_back(own);
+    Recorder recorder(c, *consumed.impl_, held.submission, own);
     recorder.record(VK_NULL_HANDLE);
     recorder.commit();
     for (const auto& [image, layout] : leave) {
-        const Access rest{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, true, true};
-        c.barrier(commands, *image, transition(image->state(), whole(image->state()), rest));
+        const Access rest{
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, true, true};
+        c.barrier(own, *image, transition(image->state(), whole(image->state()), rest));
     }
+    check(c.vk.vkEndCommandBuffer(own), "vkEndCommandBuffer", "a pass list");
+    c.execute(commands, held.submission);
     c.open.emplace(++c.last_ticket, std::move(held.submission));
     held.submission = {};
     return c.last_ticket;

@@ -16,11 +16,10 @@ TextureTable& TextureTable::operator=(TextureTable&&) noexcept = default;
 TextureTable::~TextureTable() = default;
 VkDescriptorSet TextureTable::set() const { return impl_->set; }
 
-TextureTable Device::texture_table(std::span<const Image* const> images, std::span<const Sampler> samplers)
+TextureTable Device::texture_table(std::span<const VkDescriptorImageInfo> infos)
 {
     Context& c = *impl_;
-    if (images.size() != samplers.size()) throw std::logic_error("texture_table: one sampler an image");
-    const uint32_t count = uint32_t(images.size());
+    const uint32_t count = uint32_t(infos.size());
     if (count > c.table_size)
         base::fail("the scene has {} textures and device '{}' can hold {} in one table; merge textures into atlases", count, c.info.name,
             c.table_size);
@@ -35,25 +34,30 @@ TextureTable Device::texture_table(std::span<const Image* const> images, std::sp
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_VARIABLE_DESCRIPTOR_COUNT_ALLOCATE_INFO, nullptr, 1, &size.descriptorCount};
     const VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, &variable, t.pool, 1, &c.table_layout};
     check(c.vk.vkAllocateDescriptorSets(c.handle, &allocate, &t.set), "vkAllocateDescriptorSets", "the texture table");
+    std::vector<VkWriteDescriptorSet> writes;
+    for (uint32_t i = 0; i < count; ++i)
+        if (infos[i].imageView)
+            writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, t.set, 0, i, 1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                &infos[i], nullptr, nullptr});
+    if (!writes.empty()) c.vk.vkUpdateDescriptorSets(c.handle, uint32_t(writes.size()), writes.data(), 0, nullptr);
+    return table;
+}
 
+TextureTable Device::texture_table(std::span<const Image* const> images, std::span<const Sampler> samplers)
+{
+    if (images.size() != samplers.size()) throw std::logic_error("texture_table: one sampler an image");
     std::vector<VkDescriptorImageInfo> infos;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < images.size(); ++i) {
         const Image& image = *images[i];
         for (const auto& part : image.state().parts)
             if (part.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)
                 throw std::logic_error(
                     fmt::format("texture_table: upload image '{}' first, and every mip and layer of it", image.desc().name));
-        infos.push_back({c.sampler(samplers[i], image.desc().format),
+        infos.push_back({impl_->sampler(samplers[i], image.desc().format),
             image.view(VK_IMAGE_VIEW_TYPE_2D, 0, 1, 0, image.desc().mips, VK_IMAGE_ASPECT_COLOR_BIT),
             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
     }
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = t.set;
-    write.descriptorCount = count;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.pImageInfo = infos.data();
-    if (count) c.vk.vkUpdateDescriptorSets(c.handle, 1, &write, 0, nullptr);
-    return table;
+    return texture_table(infos);
 }
 
 } // namespace gnomon::gpu

@@ -61,7 +61,8 @@ struct Mesh {
     std::vector<uint32_t> indices; ///< a multiple of 3, each < positions.size()
     int material = 0;
     Bounds bounds; ///< of `positions`
-    size_t triangle_count() const { return indices.size() / 3; }
+    uint32_t absent_triangles = 0; ///< of a mesh whose vertices are on a device alone, so that the arrays are empty; `bounds` is theirs
+    size_t triangle_count() const { return indices.size() / 3 + absent_triangles; }
 };
 
 /// A placed mesh. Triangle t of instance i has the scene-wide primitive id first_primitive(i) + t; see Scene::first_primitives.

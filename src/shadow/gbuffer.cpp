@@ -52,7 +52,7 @@ GBuffer draw_gbuffer(gpu::PassList& passes, SceneGpu& scene, const scene::View& 
     const GBuffer g = make_images(passes, scene, view, request);
     gpu::Device& device = scene.device();
     const auto program = [&](uint32_t with_mask) -> const gpu::Program& {
-        const gpu::SpecConstant constants[] = {{0, with_mask}, {1, request.material ? 1u : 0u}};
+        const gpu::SpecConstant constants[] = {{0, with_mask}, {1, request.material ? 1u : 0u}, {2, request.flat ? 1u : 0u}};
         return device.raster_program("src/shadow/gbuffer.vert", "src/shadow/gbuffer.frag", constants);
     };
     const gpu::Program &opaque = program(0), &masked = program(1);

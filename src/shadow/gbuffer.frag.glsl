@@ -9,6 +9,7 @@
 
 layout(constant_id = 0) const bool masked = false;
 layout(constant_id = 1) const bool material = true; // false: only what shadows need
+layout(constant_id = 2) const bool flat_normals = false;
 
 layout(location = 0) in vec3 p_eye;
 layout(location = 1) in vec3 n_world;
@@ -52,7 +53,7 @@ void main()
     if (masked && !kept(index)) discard;
 
     n_geometric *= dot(n_geometric, c.view.orthographic != 0 ? c.view.forward : p_eye) > 0.0 ? -1.0 : 1.0;
-    const vec3 n_shading = gl_FrontFacing ? n_world : -n_world;
+    const vec3 n_shading = flat_normals ? n_geometric : gl_FrontFacing ? n_world : -n_world;
     normal_out = uvec2(encode_normal(n_shading), encode_normal(n_geometric));
     primitive_out = ids.x + uint(gl_PrimitiveID);
     albedo_out = vec4(base.rgb * materials[index].base_color.rgb * color.rgb, 1.0);

@@ -23,6 +23,7 @@ struct GBuffer {
 struct GBufferRequest {
     bool material = true; ///< albedo, surface, emissive
     const scene::View* previous = nullptr; ///< writes `motion`
+    bool flat = false; ///< the scene has no normals on the device: shading normals are the geometric ones
 };
 
 /// Draws opaque and masked triangles (blended ones are drawn after lighting): one raster pass, "gbuffer".

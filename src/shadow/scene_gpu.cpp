@@ -81,13 +81,12 @@ void upload_textures(SceneGpu::Impl& s)
     s.textures = s.device->texture_table(images, samplers);
 }
 
-void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
+void make_geometry(SceneGpu::Impl& s, std::span<const uvec2> counts)
 {
-    // One mesh at a time through `upload`, so that a scene of a million triangles is never held twice in host memory.
     uint64_t vertices = 0, indices = 0;
-    for (const scene::Mesh& m : s.scene->meshes) {
-        s.ranges.push_back({uint32_t(vertices), uint32_t(m.positions.size()), uint32_t(indices), uint32_t(m.indices.size())});
-        vertices += m.positions.size(), indices += m.indices.size();
+    for (const uvec2 count : counts) {
+        s.ranges.push_back({uint32_t(vertices), count.x, uint32_t(indices), count.y});
+        vertices += count.x, indices += count.y;
     }
     if (vertices > 0x7fffffffu || indices > 0xffffffffu)
         base::fail("the scene '{}' has {} vertices and {} indices, above the 31 and 32 bits of a draw; split it", s.scene->name, vertices,
@@ -101,7 +100,17 @@ void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
         = s.device->buffer({std::max<uint64_t>(vertices, 1) * sizeof(gpu_layout::Attributes), vertex, gpu::Memory::device, "attributes"});
     s.indices
         = s.device->buffer({std::max<uint64_t>(indices, 1) * 4, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | trace, gpu::Memory::device, "indices"});
-    if (previous) s.previous = s.device->buffer({std::max<uint64_t>(vertices, 1) * 12, vertex, gpu::Memory::device, "previous positions"});
+}
+
+void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
+{
+    std::vector<uvec2> counts;
+    for (const scene::Mesh& m : s.scene->meshes) counts.emplace_back(uint32_t(m.positions.size()), uint32_t(m.indices.size()));
+    make_geometry(s, counts);
+    if (previous)
+        s.previous
+            = s.device->buffer({s.positions.desc().bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Memory::device, "previous positions"});
+    // One mesh at a time through `upload`, so that a scene of a million triangles is never held twice in host memory.
     std::vector<gpu_layout::Attributes> attributes;
     for (size_t m = 0; m < s.scene->meshes.size(); ++m) {
         const scene::Mesh& mesh = s.scene->meshes[m];
@@ -121,37 +130,69 @@ void upload_geometry(SceneGpu::Impl& s, const scene::Scene* previous)
     }
 }
 
-void upload_instances(SceneGpu::Impl& s, const scene::Scene* previous)
+/// Sorted by state and mesh: equal meshes become one instanced draw.
+void make_slots(SceneGpu::Impl& s)
 {
-    const std::vector<uint32_t> first_primitive = s.scene->first_primitives();
-    // Sorted by state and mesh: equal meshes become one instanced draw.
     std::vector<uint32_t> order(s.scene->instances.size());
     std::iota(order.begin(), order.end(), 0u);
+    const auto material_of = [&](const scene::Mesh& mesh) -> const scene::Material& { return s.scene->materials[size_t(mesh.material)]; };
     const auto rank = [&](uint32_t i) {
         const int mesh = s.scene->instances[i].mesh;
-        const scene::Material& m = s.scene->materials[size_t(s.scene->meshes[size_t(mesh)].material)];
+        const scene::Material& m = material_of(s.scene->meshes[size_t(mesh)]);
         return std::pair(int(m.alpha) * 2 + int(m.double_sided), mesh);
     };
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
-    std::vector<gpu_layout::Instance> instances, before;
     for (const uint32_t i : order) {
-        const scene::Instance& instance = s.scene->instances[i];
-        const scene::Mesh& mesh = s.scene->meshes[size_t(instance.mesh)];
-        const scene::Material& material = s.scene->materials[size_t(mesh.material)];
-        gpu_layout::Instance packed = pack(instance.world_from_object);
-        const MeshRange& range = s.ranges[size_t(instance.mesh)];
-        packed.first_primitive = first_primitive[i], packed.material = uint32_t(mesh.material);
-        packed.first_index = range.first_index, packed.first_vertex = range.first_vertex;
-        instances.push_back(packed);
-        if (previous) before.push_back(pack(previous->instances[i].world_from_object));
+        const scene::Mesh& mesh = s.scene->meshes[size_t(s.scene->instances[i].mesh)];
+        const scene::Material& material = material_of(mesh);
         const DrawSet set = material.alpha == scene::AlphaMode::opaque ? draw_opaque
             : material.alpha == scene::AlphaMode::mask                 ? draw_masked
                                                                        : draw_blended;
-        s.slots.push_back({i, uint32_t(instance.mesh), set, material.double_sided, transformed(mesh.bounds, instance.world_from_object)});
-        if (!mesh.indices.empty()) s.sets |= set;
+        s.slots.push_back({i, uint32_t(s.scene->instances[i].mesh), set, material.double_sided, {}});
+        if (mesh.triangle_count() > 0) s.sets |= set;
     }
-    s.instances = make_buffer(*s.device, instances, 0, "instances");
-    if (previous) s.previous_instances = make_buffer(*s.device, before, 0, "previous instances");
+}
+
+void find_bounds(SceneGpu::Impl& s)
+{
+    s.bounds = s.scene->bounds();
+    for (Slot& slot : s.slots)
+        slot.bounds = transformed(s.scene->meshes[slot.mesh].bounds, s.scene->instances[slot.instance].world_from_object);
+}
+
+std::vector<gpu_layout::Instance> packed_instances(const SceneGpu::Impl& s)
+{
+    const std::vector<uint32_t> first_primitive = s.scene->first_primitives();
+    std::vector<gpu_layout::Instance> instances;
+    for (const Slot& slot : s.slots) {
+        gpu_layout::Instance packed = pack(s.scene->instances[slot.instance].world_from_object);
+        const MeshRange& range = s.ranges[slot.mesh];
+        packed.first_primitive = first_primitive[slot.instance], packed.material = uint32_t(s.scene->meshes[slot.mesh].material);
+        packed.first_index = range.first_index, packed.first_vertex = range.first_vertex;
+        instances.push_back(packed);
+    }
+    return instances;
+}
+
+void upload_instances(SceneGpu::Impl& s, const scene::Scene* previous)
+{
+    make_slots(s);
+    find_bounds(s);
+    s.instances = make_buffer(*s.device, packed_instances(s), 0, "instances");
+    if (!previous) return;
+    std::vector<gpu_layout::Instance> before;
+    for (const Slot& slot : s.slots) before.push_back(pack(previous->instances[slot.instance].world_from_object));
+    s.previous_instances = make_buffer(*s.device, before, 0, "previous instances");
+}
+
+void upload_materials(SceneGpu::Impl& s)
+{
+    std::vector<gpu_layout::Material> materials;
+    for (const scene::Material& m : s.scene->materials) {
+        materials.push_back(pack(m));
+        s.emits = s.emits || m.emissive != vec3(0);
+    }
+    s.materials = make_buffer(*s.device, materials, 0, "materials");
 }
 
 } // namespace
@@ -160,16 +201,36 @@ SceneGpu::SceneGpu(gpu::Device& device, const scene::Scene& scene, const scene::
     : impl_(std::make_unique<Impl>())
 {
     Impl& s = *impl_;
-    s.device = &device, s.scene = &scene, s.bounds = scene.bounds();
+    s.device = &device, s.scene = &scene;
     upload_geometry(s, previous);
     upload_instances(s, previous);
-    std::vector<gpu_layout::Material> materials;
-    for (const scene::Material& m : scene.materials) {
-        materials.push_back(pack(m));
-        s.emits = s.emits || m.emissive != vec3(0);
-    }
-    s.materials = make_buffer(device, materials, 0, "materials");
+    upload_materials(s);
     upload_textures(s);
+}
+
+SceneGpu::SceneGpu(gpu::Device& device, const scene::Scene& scene, std::span<const uvec2> counts, gpu::TextureTable textures)
+    : impl_(std::make_unique<Impl>())
+{
+    Impl& s = *impl_;
+    s.device = &device, s.scene = &scene;
+    make_geometry(s, counts);
+    upload_instances(s, nullptr);
+    upload_materials(s);
+    s.textures = std::move(textures);
+}
+
+void SceneGpu::moved(std::span<const uint32_t> deformed)
+{
+    Impl& s = *impl_;
+    find_bounds(s);
+    const std::vector<gpu_layout::Instance> instances = packed_instances(s);
+    if (!instances.empty()) s.device->upload(s.instances, std::as_bytes(std::span(instances)));
+    s.casters = {};
+    s.tlas = {};
+    for (const uint32_t mesh : deformed)
+        if (mesh < s.blas.size()) s.blas[mesh] = {};
+    s.content = std::make_shared<char>();
+    if (!deformed.empty()) s.shapes = std::make_shared<char>();
 }
 
 SceneGpu::~SceneGpu() = default;
@@ -187,5 +248,8 @@ gpu::Buffer& SceneGpu::previous_positions() { return impl_->previous ? impl_->pr
 gpu::Buffer& SceneGpu::previous_instances() { return impl_->previous_instances ? impl_->previous_instances : impl_->instances; }
 const gpu::TextureTable& SceneGpu::textures() const { return impl_->textures; }
 std::shared_ptr<const void> SceneGpu::content() const { return impl_->content; }
+std::shared_ptr<const void> SceneGpu::shapes() const { return impl_->shapes; }
+const SceneGpu::MeshRange& SceneGpu::range(size_t mesh) const { return impl_->ranges[mesh]; }
+void SceneGpu::set_filter(Filter filter) { impl_->filter = std::move(filter); }
 
 } // namespace gnomon::shadow

@@ -6,7 +6,9 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace gnomon::shadow {
@@ -25,6 +27,9 @@ class SceneGpu {
 public:
     /// `previous`: the same scene at the previous frame's time, for motion; nullptr = nothing moves.
     SceneGpu(gpu::Device&, const scene::Scene&, const scene::Scene* previous = nullptr);
+    /// Of meshes that a device alone has (Mesh::absent_triangles): positions(), indices() and attributes() are left for passes to write,
+    /// mesh by mesh at `range`. `counts`: vertices and indices of each mesh; `textures`: in place of the scene's, by the same numbers.
+    SceneGpu(gpu::Device&, const scene::Scene&, std::span<const uvec2> counts, gpu::TextureTable textures);
     ~SceneGpu();
 
     const scene::Scene& scene() const;
@@ -63,6 +68,16 @@ public:
     /// For draws that the GPU chooses: one shaders::Caster (src/shadow/casters.shared.h) a slot, in the order of instances().
     gpu::Buffer& casters();
     uint32_t slot_count() const;
+    /// Of a mesh, in the buffers that all meshes share.
+    struct MeshRange {
+        uint32_t first_vertex, vertex_count, first_index, index_count;
+    };
+    const MeshRange& range(size_t mesh) const;
+    /// To be called when the scene's transforms or the bounds of its meshes have changed, or, by `deformed`, vertices on the device.
+    void moved(std::span<const uint32_t> deformed = {});
+    /// Asked by `draw` with `cull` of each instance of the scene that its bounds leave: whether it is drawn. Null: all are.
+    using Filter = std::function<bool(uint32_t instance, const Planes&)>;
+    void set_filter(Filter);
     /// The slots of `sets` by their VkDrawIndexedIndirectCommand, one a slot from `offset` on; the pass names `commands` in `buffers`. Of
     /// the options `sets` and `second` are read.
     void draw_indirect(gpu::Encoder&, const DrawOptions&, gpu::BufferId commands, uint64_t offset);
@@ -75,9 +90,10 @@ public:
         bool operator==(const Drawable&) const = default;
     };
     std::vector<Drawable> drawables() const;
-    /// Stands for this object even after it is gone, unlike its address: techniques that keep something between frames tell by it whether
-    /// they see the same casters again.
+    /// Stands for these casters where they are, even after this object is gone, unlike its address: techniques that keep something between
+    /// frames tell by it whether they see the same again. `shapes`: wherever they are.
     std::shared_ptr<const void> content() const;
+    std::shared_ptr<const void> shapes() const;
 
     struct Impl; ///< scene_gpu_impl.h
 

@@ -46,8 +46,11 @@ uint64_t SceneGpu::draw(gpu::Encoder& encoder, const DrawOptions& options)
         encoder.index_buffer(s.indices);
     }
     std::vector<uint32_t> order;
+    const auto kept = [&](const Slot& slot) {
+        return !options.cull || (!outside(slot.bounds, *options.cull) && (!s.filter || s.filter(slot.instance, *options.cull)));
+    };
     for (uint32_t i = 0; i < s.slots.size(); ++i)
-        if ((s.slots[i].set & options.sets) != 0 && !(options.cull && outside(s.slots[i].bounds, *options.cull))) order.push_back(i);
+        if ((s.slots[i].set & options.sets) != 0 && kept(s.slots[i])) order.push_back(i);
     if (options.back_to_front_of) {
         const auto distance = [&](uint32_t i) { return glm::length(s.slots[i].bounds.centre() - *options.back_to_front_of); };
         std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return distance(a) > distance(b); });

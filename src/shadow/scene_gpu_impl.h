@@ -33,9 +33,7 @@ struct Material {
 static_assert(sizeof(Instance) == 64 && sizeof(Material) == 60 + 3 * 28);
 } // namespace gpu_layout
 
-struct MeshRange {
-    uint32_t first_vertex, vertex_count, first_index, index_count;
-};
+using MeshRange = SceneGpu::MeshRange;
 
 /// An instance in drawing order.
 struct Slot {
@@ -58,7 +56,8 @@ struct SceneGpu::Impl {
     gpu::TextureTable textures;
     std::vector<gpu::AccelerationStructure> blas; ///< by mesh; empty entries for meshes that block no light
     gpu::AccelerationStructure tlas;
-    std::shared_ptr<const void> content = std::make_shared<char>();
+    std::shared_ptr<const void> content = std::make_shared<char>(), shapes = std::make_shared<char>();
+    SceneGpu::Filter filter;
 };
 
 } // namespace gnomon::shadow

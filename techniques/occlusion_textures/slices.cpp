@@ -105,7 +105,7 @@ std::vector<Bounds> caster_boxes(const scene::Scene& s)
     std::vector<Bounds> boxes;
     for (const scene::Instance& instance : s.instances) {
         const scene::Mesh& mesh = s.meshes[size_t(instance.mesh)];
-        if (mesh.indices.empty() || s.materials[size_t(mesh.material)].alpha == scene::AlphaMode::blend) continue;
+        if (mesh.triangle_count() == 0 || s.materials[size_t(mesh.material)].alpha == scene::AlphaMode::blend) continue;
         Bounds box;
         for (const vec3 corner : shadow::parts::corners(mesh.bounds)) box.add(vec3(instance.world_from_object * vec4(corner, 1)));
         boxes.push_back(box);

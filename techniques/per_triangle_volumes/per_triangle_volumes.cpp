@@ -58,7 +58,7 @@ private:
         const scene::View view = finer_view(drawn.view, params);
         const Frame frame{drawn.scene, view, drawn.light, drawn.resources, finer_surfaces(passes, drawn, view, params), drawn.output,
             drawn.index, nullptr, drawn.counters};
-        if (!blocks_) read_casters(frame.resources);
+        if (content_ != frame.resources.content()) read_casters(frame.resources);
         const Tree tree = make_tree(frame.view, uvec2(1) << (params.samples == SAMPLES_EXTRAPOLATED ? samples_log2(params) : uvec2(0)));
         const uint32_t room = 2 * CASTER_BLOCK * std::min(round_blocks, std::max(block_count_, 1u));
         Buffers b = make_buffers(passes, frame, tree, room, uint32_t(params.queue));
@@ -193,6 +193,7 @@ private:
         block_count_ = uint32_t(blocks.size());
         blocks_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBlock), 0, gpu::Memory::device, "caster blocks"});
         boxes_ = device_.buffer({std::max<uint64_t>(blocks.size(), 1) * sizeof(CasterBox), 0, gpu::Memory::device, "caster boxes"});
+        content_ = scene.content();
         if (blocks.empty()) return;
         device_.upload(blocks_, std::as_bytes(std::span(blocks)));
         const std::vector<CasterBox> boxes = parts::caster_boxes(scene, blocks);
@@ -201,7 +202,8 @@ private:
 
     uint64_t kept_bytes() const override { return blocks_ ? blocks_.desc().bytes + boxes_.desc().bytes : 0; }
 
-    gpu::Buffer blocks_, boxes_; ///< of the scene's triangles, made on first use
+    gpu::Buffer blocks_, boxes_; ///< of the casters in content_
+    std::shared_ptr<const void> content_;
     uint32_t block_count_ = 0, solid_end_ = 0, opaque_end_ = 0; ///< CasterRanges
     gpu::Device& device_;
 };

@@ -85,14 +85,14 @@ public:
 private:
     void record_with(gpu::PassList& passes, const Frame& frame, const Params& params) override
     {
-        if (known_.empty() || params.planes != found_with_.planes || params.smallest != found_with_.smallest) {
-            known_.assign(1, find_planes(frame.scene, params.planes, double(params.smallest)));
-            found_with_ = params;
+        if (content_ != frame.resources.content() || params.planes != found_with_.planes || params.smallest != found_with_.smallest) {
+            known_ = find_planes(frame.scene, params.planes, double(params.smallest));
+            found_with_ = params, content_ = frame.resources.content();
         }
         const dvec4 light = light_point(frame.light);
         const double thickness = plane_thickness(frame.scene);
         std::vector<Facing> planes;
-        for (const Plane& p : known_.front()) planes.push_back(facing(p.equation, light, thickness));
+        for (const Plane& p : known_) planes.push_back(facing(p.equation, light, thickness));
 
         const gpu::ImageId plane_image
             = passes.transient({VK_FORMAT_R8_UINT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "planes"});
@@ -167,7 +167,8 @@ private:
     }
 
     gpu::Device& device_;
-    std::vector<std::vector<Plane>> known_; ///< empty, or the scene's planes: a scene keeps them
+    std::vector<Plane> known_; ///< of the casters in content_
+    std::shared_ptr<const void> content_;
     Params found_with_;
 };
 

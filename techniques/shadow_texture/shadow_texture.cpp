@@ -88,10 +88,10 @@ private:
 
     void prepare(const Frame& frame, const Params& params)
     {
-        if (!bits_ || params.largest_caster != made_with_.largest_caster)
+        if (content_ != frame.resources.content() || params.largest_caster != made_with_.largest_caster)
             bits_ = upload(caster_bits(frame.scene, params.largest_caster), "casters");
         if (!cookie_ || params.cookie != made_with_.cookie) cookie_ = upload(cookie_content(params.cookie), "cookie");
-        made_with_ = params;
+        made_with_ = params, content_ = frame.resources.content();
     }
 
     template <class T> gpu::Buffer upload(const std::vector<T>& values, const char* name)
@@ -122,6 +122,7 @@ private:
 
     gpu::Device& device_;
     gpu::Buffer bits_, cookie_;
+    std::shared_ptr<const void> content_; ///< the casters in bits_
     Params made_with_;
 };
 

@@ -64,7 +64,7 @@ glm::ivec4 weight_of(const scene::Material& material)
 
 void VolumeCasters::update(SceneGpu& scene, bool blended)
 {
-    if (content_ == scene.content() && blended_ == blended) return;
+    if (shapes_ == scene.shapes() && blended_ == blended) return;
     const AllEdges edges_of(scene.scene());
     std::vector<shaders::VolumeBlock> of_triangles, of_edges;
     std::vector<glm::ivec4> of_slots(std::max(scene.slot_count(), 1u));
@@ -89,7 +89,7 @@ void VolumeCasters::update(SceneGpu& scene, bool blended)
     edge_blocks = make_buffer(scene, of_edges, "blocks of edges");
     weights = make_buffer(scene, of_slots, "weights of casters");
     triangle_block_count = uint32_t(of_triangles.size()), edge_block_count = uint32_t(of_edges.size());
-    content_ = scene.content(), blended_ = blended;
+    shapes_ = scene.shapes(), blended_ = blended;
 }
 
 uint64_t VolumeCasters::bytes() const

@@ -64,7 +64,7 @@ public:
     uint32_t triangles = 0; ///< that cast
 
 private:
-    std::shared_ptr<const void> content_;
+    std::shared_ptr<const void> shapes_;
     bool blended_ = false;
 };
 
