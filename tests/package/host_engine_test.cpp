@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/source_root.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <vector>
@@ -149,6 +151,30 @@ TEST(HostEngine, ShowsItInAWindow)
     if (said.find("built without GLFW") != std::string::npos) GTEST_SKIP() << "GLFW is not installed (Debian: libglfw3-dev)";
     ASSERT_EQ(said, "");
     EXPECT_EQ(differing(read_ppm(file), picture("--technique pcss --frames 18")), 0);
+}
+
+std::string read_text(const fs::path& path)
+{
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(HostEngine, IsWhatThePageOnEmbeddingQuotes)
+{
+    std::string sources;
+    for (const auto& entry : fs::directory_iterator(source_root() / "examples/host_engine/src")) sources += read_text(entry.path());
+    std::istringstream page(read_text(source_root() / "docs/embedding.md"));
+    bool code = false;
+    int lines = 0;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("```")) {
+            code = line == "```cpp";
+        } else if (code) {
+            EXPECT_NE(sources.find(line + "\n"), std::string::npos) << line;
+            ++lines;
+        }
+    }
+    EXPECT_GT(lines, 20);
 }
 
 TEST(HostEngine, SaysWhatIsWrong)

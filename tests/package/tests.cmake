@@ -28,5 +28,5 @@ package_test(debian CPACK=${CMAKE_CPACK_COMMAND} PROGRAM=$<TARGET_EXISTS:gnomon>
 package_test(host_engine)
 set_tests_properties(package.host_engine PROPERTIES FIXTURES_SETUP host_engine)
 gnomon_program(gnomon_package_tests SOURCES package/host_engine_test.cpp DEPENDS GTest::gtest_main)
-target_compile_definitions(gnomon_package_tests PRIVATE HOST_ENGINE="${package_folder}/host_engine/build/host_engine")
+target_compile_definitions(gnomon_package_tests PRIVATE GNOMON_SOURCE="${CMAKE_SOURCE_DIR}" HOST_ENGINE="${package_folder}/host_engine/build/host_engine")
 gtest_discover_tests(gnomon_package_tests DISCOVERY_MODE PRE_TEST PROPERTIES LABELS package FIXTURES_REQUIRED host_engine)
