@@ -201,9 +201,9 @@ typedef struct gnomon_frame {
     gnomon_image depth; /* a depth or single-channel float format with VK_IMAGE_USAGE_SAMPLED_BIT; multisampled: sample 0. A null image: the
                            receivers are what the view sees of the scene */
     float background; /* depth where nothing was drawn: 0 reversed, else 1 */
-    gnomon_image normals; /* with VK_IMAGE_USAGE_SAMPLED_BIT, host space; a null image: made from the depth */
+    gnomon_image normals; /* of one sample, with VK_IMAGE_USAGE_SAMPLED_BIT, host space; a null image: made from the depth */
     uint32_t normal_encoding;
-    gnomon_image motion; /* rg = uv now - uv in the previous frame; a null image: nothing moved */
+    gnomon_image motion; /* of one sample; rg = uv now - uv in the previous frame; a null image: nothing moved */
     gnomon_image output; /* any colour format with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, of the receivers' size; 1 where all the light
                             arrives, and in the background */
     gnomon_cull cull; /* or NULL */

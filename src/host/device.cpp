@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/device.h"
 
+#include "gpu/functions.h"
 #include "host/result.h"
 
 #include <algorithm>

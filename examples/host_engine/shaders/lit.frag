@@ -19,7 +19,7 @@ void main()
 {
     const vec3 n = normalize(n_host);
     vec3 to_light = -light_direction.xyz;
-    float arriving = 1.6;
+    float arriving = 1.4;
     if (light_position.w != 0) {
         const vec3 way = light_position.xyz - p_host;
         const float metres = length(way) * up.w;
@@ -28,7 +28,7 @@ void main()
     }
     vec3 albedo = color.rgb;
     if (color.a != 0) albedo *= mod(floor(uv.x) + floor(uv.y), 2) == 0 ? 1.0 : 0.8;
-    const float ambient = 0.22 + 0.1 * dot(n, up.xyz);
+    const float ambient = 0.13 + 0.06 * dot(n, up.xyz);
     const float light = arriving * max(dot(n, to_light), 0) * texelFetch(visibility, ivec2(gl_FragCoord.xy), 0).r;
     const vec3 c = albedo * (ambient + light);
     picture = vec4(pow(c / (c + 0.6), vec3(1 / 2.2)), 1);

@@ -23,6 +23,17 @@ VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, V
     return info;
 }
 
+/// A colour attachment that is cleared, and averaged into `resolved` where that is given.
+VkRenderingAttachmentInfo drawn(const Image& image, const Image* resolved)
+{
+    VkRenderingAttachmentInfo info = attachment(image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR);
+    if (!resolved) return info;
+    info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    info.resolveImageView = resolved->view;
+    info.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    return info;
+}
+
 void begin_rendering(
     VkCommandBuffer commands, VkExtent2D extent, const VkRenderingAttachmentInfo* color, const VkRenderingAttachmentInfo& depth)
 {
@@ -94,7 +105,9 @@ void Renderer::depth_pass(const Slot& slot, const PushConstants& push) const
         = attachment(targets_.depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR);
     depth.clearValue.depthStencil.depth = options_.convention.reversed_depth ? 0.0f : 1.0f;
     VkRenderingAttachmentInfo normals{};
-    if (targets_.normals) normals = attachment(*targets_.normals, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR);
+    if (targets_.normals)
+        normals = drawn(targets_.normals_samples ? *targets_.normals_samples : *targets_.normals,
+            targets_.normals_samples ? &*targets_.normals : nullptr);
     begin_rendering(slot.commands, targets_.picture.extent, targets_.normals ? &normals : nullptr, depth);
     draw_scene(pipelines_.depth, slot, push);
     vkCmdEndRendering(slot.commands);
@@ -105,14 +118,8 @@ void Renderer::lit_pass(const Slot& slot, const PushConstants& push) const
     const VkRenderingAttachmentInfo depth
         = attachment(targets_.depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD);
     const bool multisampled = targets_.color.image != VK_NULL_HANDLE;
-    VkRenderingAttachmentInfo color = attachment(
-        multisampled ? targets_.color : targets_.picture, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_CLEAR);
+    VkRenderingAttachmentInfo color = drawn(multisampled ? targets_.color : targets_.picture, multisampled ? &targets_.picture : nullptr);
     color.clearValue.color = {{0.55f, 0.65f, 0.75f, 1.0f}};
-    if (multisampled) {
-        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-        color.resolveImageView = targets_.picture.view;
-        color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    }
     begin_rendering(slot.commands, targets_.picture.extent, &color, depth);
     draw_scene(pipelines_.lit, slot, push);
     vkCmdEndRendering(slot.commands);

@@ -49,7 +49,10 @@ void Renderer::make_targets(VkExtent2D extent)
     constexpr VkImageUsageFlags drawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, read = VK_IMAGE_USAGE_SAMPLED_BIT;
     targets_ = {};
     targets_.depth = gpu_.image(c.depth_format, extent, c.samples, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read);
-    if (const VkFormat normals = normals_format(c.normals)) targets_.normals = gpu_.image(normals, extent, c.samples, drawn | read);
+    if (const VkFormat normals = normals_format(c.normals)) {
+        targets_.normals = gpu_.image(normals, extent, one, drawn | read);
+        if (c.samples != one) targets_.normals_samples = gpu_.image(normals, extent, c.samples, drawn);
+    }
     targets_.visibility = gpu_.image(VK_FORMAT_R8_UNORM, extent, one, drawn | read);
     if (c.samples != one) targets_.color = gpu_.image(color_format, extent, c.samples, drawn);
     targets_.picture = gpu_.image(color_format, extent, one, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
@@ -59,6 +62,7 @@ std::vector<Image> Renderer::images_of_targets() const
 {
     std::vector<Image> out{targets_.depth, targets_.visibility, targets_.picture};
     if (targets_.normals) out.push_back(*targets_.normals);
+    if (targets_.normals_samples) out.push_back(*targets_.normals_samples);
     if (targets_.color.image) out.push_back(targets_.color);
     return out;
 }

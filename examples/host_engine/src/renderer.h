@@ -12,7 +12,8 @@ namespace host {
 /// What a size of the picture needs. The frames in flight share them: one queue runs them one after another.
 struct Targets {
     Image depth;
-    std::optional<Image> normals;
+    std::optional<Image> normals; ///< of one sample, as Gnomon reads them
+    std::optional<Image> normals_samples; ///< that `normals` are resolved from
     Image visibility; ///< Gnomon's output
     Image color; ///< as many samples as the depth; unused where that is one
     Image picture; ///< what is shown

@@ -124,7 +124,7 @@ std::vector<InstanceData> Scene::pose(float seconds) const
 
 Light Scene::light(float seconds, bool lamp) const
 {
-    const float angle = 0.6f + 0.25f * std::sin(0.7f * seconds);
+    const float angle = 2.3f + 0.25f * std::sin(0.7f * seconds);
     if (!lamp) return {false, {}, convention_.direction(normalize({-std::cos(angle), -1.1f, -std::sin(angle)})), 0.03f};
     const Vec3 position{4 * std::cos(angle), 7, 4 * std::sin(angle)};
     return {true, convention_.point(position), convention_.direction(normalize(Vec3{0, 0.5f, 0} - position)), 0.3f / convention_.metres,
