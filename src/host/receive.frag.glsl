@@ -5,7 +5,6 @@
 layout(set = 0, binding = 0) uniform sampler2D depths;
 
 float host_depth(ivec2 pixel) { return texelFetch(depths, pixel, 0).x; }
-vec2 host_sample() { return vec2(0.5); }
 
 #include "src/host/receive.glsl"
 

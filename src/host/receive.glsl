@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host's depth, and normals if there are, as Gnomon's G-buffer. The includer has host_depth(pixel) and host_sample(),
-// where in the pixel that depth lies, and defines MOVES where there is motion: an output without a target makes validation warn.
+// A host's depth, and normals if there are, as Gnomon's G-buffer. The includer has host_depth(pixel), and defines MOVES where there is motion:
+// an output without a target makes validation warn.
 #ifndef GNOMON_HOST_RECEIVE_GLSL
 #define GNOMON_HOST_RECEIVE_GLSL
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(set = 1, binding = 0, scalar) uniform Constants { ReceiveConstants c; };
 layout(location = 0) out uvec2 normal_out;
 layout(location = 1) out uint primitive_out;
 
-vec2 ndc_of(ivec2 pixel) { return (vec2(pixel) + host_sample()) / c.view.size * 2.0 - 1.0; }
+vec2 ndc_of(ivec2 pixel) { return (vec2(pixel) + 0.5) / c.view.size * 2.0 - 1.0; }
 
 float depth_at(ivec2 pixel)
 {
@@ -28,7 +28,7 @@ float depth_at(ivec2 pixel)
     return clamp(dot(c.depth_row, p) / dot(c.w_row, p), 1e-30, 1.0);
 }
 
-vec3 position_at(ivec2 pixel, float depth) { return world_from_depth(c.view, vec2(pixel) + host_sample(), depth); }
+vec3 position_at(ivec2 pixel, float depth) { return world_from_depth(c.view, vec2(pixel) + 0.5, depth); }
 
 // The position one pixel along `step` minus the one here, from the side whose two pixels continue to this one: view depth is linear across
 // a plane's picture (near / distance is), so that the side which lies on the same plane extrapolates to this pixel's depth.
@@ -49,27 +49,6 @@ vec3 along(ivec2 pixel, ivec2 step, float depth, vec3 p)
     return found;
 }
 
-// What depth gains in one pixel along `step`, from the side where that is less: the other may lie beyond an edge.
-float slope(ivec2 pixel, ivec2 step, float depth)
-{
-    float found = 0.0, least = 1e38;
-    for (int side = -1; side <= 1; side += 2) {
-        const ivec2 one = pixel + side * step;
-        if (any(lessThan(one, ivec2(0))) || any(greaterThanEqual(one, ivec2(c.view.size)))) continue;
-        const float near_one = depth_at(one), gain = float(side) * (near_one - depth);
-        if (near_one != 0.0 && abs(gain) < least) least = abs(gain), found = gain;
-    }
-    return found;
-}
-
-// The receiver's plane at the pixel's centre, where techniques look for it: beside it the same depth lies before or behind the surface.
-float depth_at_center(ivec2 pixel, float depth)
-{
-    const vec2 off = 0.5 - host_sample();
-    if (off == vec2(0.0)) return depth;
-    return clamp(depth + off.x * slope(pixel, ivec2(1, 0), depth) + off.y * slope(pixel, ivec2(0, 1), depth), 1e-30, 1.0);
-}
-
 vec3 read_normal(ivec2 pixel)
 {
     vec4 n = texelFetch(normals, pixel, 0);
@@ -84,7 +63,7 @@ vec3 read_normal(ivec2 pixel)
 void receive(ivec2 pixel)
 {
     const float depth = depth_at(pixel);
-    gl_FragDepth = depth == 0.0 ? 0.0 : depth_at_center(pixel, depth);
+    gl_FragDepth = depth;
 #ifdef MOVES
     motion_out = texelFetch(motions, pixel, 0).xy;
 #endif

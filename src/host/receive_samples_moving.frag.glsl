@@ -7,9 +7,6 @@ layout(set = 0, binding = 0) uniform sampler2DMS depths;
 
 float host_depth(ivec2 pixel) { return texelFetch(depths, pixel, 0).x; }
 
-#include "src/host/standard_samples.glsl"
-vec2 host_sample() { return first_sample(textureSamples(depths)); }
-
 #include "src/host/receive.glsl"
 
 void main() { receive(ivec2(gl_FragCoord.xy)); }
