@@ -3,7 +3,6 @@
 set(CPACK_PACKAGE_NAME gnomon)
 set(CPACK_PACKAGE_VENDOR Gnomon)
 set(CPACK_PACKAGE_CONTACT "The Gnomon maintainers")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Real-time shadows with Vulkan, and what is wrong with them")
 set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_GENERATOR TGZ DEB)
 set(CPACK_STRIP_FILES ON)
