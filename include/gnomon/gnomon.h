@@ -185,7 +185,9 @@ enum { /* gnomon_frame::normal_encoding */
     GNOMON_NORMAL_SIGNED = 0, /* xyz, any length */
     GNOMON_NORMAL_UNSIGNED = 1, /* xyz = 2 * rgb - 1 */
     GNOMON_NORMAL_OCTAHEDRAL = 2, /* rg in [-1, 1] (Cigolle et al. 2014) */
-    GNOMON_NORMAL_OCTAHEDRAL_UNSIGNED = 3 /* 2 * rg - 1 */
+    GNOMON_NORMAL_OCTAHEDRAL_UNSIGNED = 3, /* 2 * rg - 1 */
+    GNOMON_NORMAL_GEOMETRIC = 4 /* added to one of these: they are the triangles' own, or smooth ones without normal maps, and are used where
+                                   surfaces keep off their own shadow; else that normal is made from the depth, less well at edges */
 };
 
 /* Whether an instance may cast into the volume inside all planes (dot(xyz, p) + w >= 0, host space). Asked while recording, by techniques

@@ -107,6 +107,13 @@ uint64_t Device::record(PassList&& list, VkCommandBuffer commands, std::span<con
             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, layout, true, true};
         c.barrier(own, *image, transition(image->state(), whole(image->state()), rest));
     }
+    // Vertex and index buffers are not declared by the passes that draw from them, and the caller's own commands know nothing of these.
+    const VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &all;
+    c.vk.vkCmdPipelineBarrier2(own, &dependency);
     check(c.vk.vkEndCommandBuffer(own), "vkEndCommandBuffer", "a pass list");
     c.execute(commands, held.submission);
     c.open.emplace(++c.last_ticket, std::move(held.submission));

@@ -23,7 +23,8 @@ float depth_at(ivec2 pixel)
 {
     const float depth = host_depth(pixel);
     if (depth == c.background) return 0.0;
-    const vec4 p = vec4(ndc_of(pixel), depth, 1.0);
+    // The difference is exact far away, where a depth that is not reversed has all of its digits just below 1.
+    const vec4 p = vec4(ndc_of(pixel), depth - c.background, 1.0);
     // nothing is as far as the background's 0
     return clamp(dot(c.depth_row, p) / dot(c.w_row, p), 1e-30, 1.0);
 }
@@ -53,7 +54,7 @@ vec3 read_normal(ivec2 pixel)
 {
     vec4 n = texelFetch(normals, pixel, 0);
     if ((c.normals & 1u) != 0) n = 2.0 * n - 1.0;
-    if (c.normals >= 2) {
+    if ((c.normals & 2u) != 0) {
         n.z = 1.0 - abs(n.x) - abs(n.y);
         if (n.z < 0.0) n.xy = octahedral_wrap(n.xy);
     }
@@ -73,12 +74,12 @@ void receive(ivec2 pixel)
         return;
     }
     const vec3 p = position_at(pixel, depth), eye = towards_eye(c.view, p);
-    vec3 n = cross(along(pixel, ivec2(1, 0), depth, p), along(pixel, ivec2(0, 1), depth, p));
+    const vec3 given = c.normals == NORMALS_NONE ? vec3(0.0) : read_normal(pixel);
+    vec3 n = (c.normals & NORMALS_GEOMETRIC) != 0 ? given : cross(along(pixel, ivec2(1, 0), depth, p), along(pixel, ivec2(0, 1), depth, p));
     // a surface one pixel wide, or seen edge-on, has no plane of its own here
     n = dot(n, n) > 0.0 ? normalize(n) : eye;
     if (dot(n, eye) < 0.0) n = -n;
-    vec3 shading = c.normals == NORMALS_NONE ? n : read_normal(pixel);
-    shading = dot(shading, shading) > 0.0 ? normalize(shading) : n;
+    vec3 shading = dot(given, given) > 0.0 ? normalize(given) : n;
     if (dot(shading, n) < 0.0) shading = -shading;
     normal_out = uvec2(encode_normal(shading), encode_normal(n));
     primitive_out = 0xfffffffeu; // some triangle

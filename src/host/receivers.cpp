@@ -60,8 +60,9 @@ shadow::GBuffer receive(
     check_size(frame.depth, size, "depth");
     if (frame.normals.image) check_attribute(frame.normals, size, "normals");
     if (frame.motion.image) check_attribute(frame.motion, size, "motion");
-    if (frame.normal_encoding > GNOMON_NORMAL_OCTAHEDRAL_UNSIGNED)
-        refuse(GNOMON_ERROR_ARGUMENT, "gnomon_frame::normal_encoding is {}; the encodings are 0 to 3", frame.normal_encoding);
+    if (frame.normal_encoding > (GNOMON_NORMAL_OCTAHEDRAL_UNSIGNED | GNOMON_NORMAL_GEOMETRIC))
+        refuse(GNOMON_ERROR_ARGUMENT, "gnomon_frame::normal_encoding is {}; the encodings are 0 to 3, or 4 to 7 of geometric normals",
+            frame.normal_encoding);
     const auto image = [&](VkFormat format, const char* name) {
         return passes.transient(gpu::ImageDesc{format, size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, name});
     };

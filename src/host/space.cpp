@@ -162,6 +162,7 @@ HostView view_of(const gnomon_frame& frame, const dmat4& world_from_host, base::
     out.world_from_clip = glm::inverse(clip_from_world);
     const dmat4 ours_from_host = clip * out.world_from_clip;
     out.depth_row = row(ours_from_host, 2), out.w_row = row(ours_from_host, 3);
+    for (dvec4* r : {&out.depth_row, &out.w_row}) r->w += r->z * double(frame.background);
     return out;
 }
 

@@ -24,7 +24,7 @@ dmat4 matrix_of(const VkTransformMatrixKHR&); ///< rows of 3x4 as a matrix
 struct HostView {
     scene::View view;
     dmat4 world_from_clip; ///< Gnomon's world from the host's clip space, image row 0 at y = -1
-    dvec4 depth_row, w_row; ///< view depth = dot(depth_row, clip) / dot(w_row, clip), of the host's clip = (x, y, depth, 1)
+    dvec4 depth_row, w_row; ///< view depth = dot(depth_row, p) / dot(w_row, p), of the host's p = (x, y, depth - background, 1)
 };
 /// `bounds`: of what is seen, Gnomon's world. Throws Refusal where the matrices are singular or not finite.
 HostView view_of(const gnomon_frame&, const dmat4& world_from_host, base::Size, const Bounds&);

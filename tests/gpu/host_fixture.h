@@ -102,8 +102,7 @@ protected:
                 {uint32_t(m.alpha), {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}, m.alpha_cutoff, m.double_sided});
         for (const scene::Mesh& mesh : s.meshes) add_mesh(out, mesh, c, vertices);
         for (const scene::Instance& i : s.instances) {
-            glm::dmat4 object(1.0);
-            if (c.snorm) object = unpacked(s.meshes[size_t(i.mesh)]);
+            const glm::dmat4 object = ours_from_hosts(s.meshes[size_t(i.mesh)], c);
             out.instances.push_back({uint32_t(i.mesh), rows_of(host_from_world(c) * glm::dmat4(i.world_from_object) * object)});
         }
         out.info = {c.space, out.materials.data(), out.meshes.data(), out.instances.data(), uint32_t(out.materials.size()),
@@ -165,16 +164,19 @@ protected:
     }
 
 private:
-    /// Object space from the box [-1, 1]^3, in which 16-bit positions are.
-    static glm::dmat4 unpacked(const scene::Mesh& mesh)
+    /// The scene's object space from the host's: 16-bit positions lie in the box [-1, 1]^3, and meshes of a left-handed renderer are
+    /// left-handed themselves.
+    static glm::dmat4 ours_from_hosts(const scene::Mesh& mesh, const Conventions& c)
     {
+        const glm::dmat4 handed = glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, c.space.left_handed ? -1 : 1));
+        if (!c.snorm) return handed;
         const glm::dvec3 half = glm::max(0.5 * glm::dvec3(mesh.bounds.max - mesh.bounds.min), glm::dvec3(1e-6));
-        return glm::translate(glm::dmat4(1.0), glm::dvec3(mesh.bounds.centre())) * glm::scale(glm::dmat4(1.0), half);
+        return glm::translate(glm::dmat4(1.0), glm::dvec3(mesh.bounds.centre())) * glm::scale(glm::dmat4(1.0), half) * handed;
     }
 
     static void add_mesh(HostScene& out, const scene::Mesh& mesh, const Conventions& c, bool vertices)
     {
-        const glm::dmat4 packed = c.snorm ? glm::inverse(unpacked(mesh)) : glm::dmat4(1.0);
+        const glm::dmat4 packed = glm::inverse(ours_from_hosts(mesh, c));
         const uint32_t stride = c.snorm ? 10 : 20, offset = c.snorm ? 2 : 8; // other things stand between positions
         std::vector<std::byte> bytes((mesh.positions.size() * stride + offset + 3) / 4 * 4);
         gnomon_mesh m{};
@@ -199,9 +201,10 @@ private:
         }
         m.indices = {out.buffers.back().handle(), c.short_indices ? 2u : 0u, 0, c.short_indices ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT};
         m.vertex_count = uint32_t(mesh.positions.size()), m.index_count = uint32_t(order.size()), m.material = uint32_t(mesh.material);
-        for (int k = 0; k < 3; ++k) m.lower[k] = c.snorm ? -1.0f : mesh.bounds.min[k], m.upper[k] = c.snorm ? 1.0f : mesh.bounds.max[k];
+        const Bounds bounds = transformed(mesh.bounds, mat4(packed));
+        for (int k = 0; k < 3; ++k) m.lower[k] = bounds.min[k], m.upper[k] = bounds.max[k];
         m.clockwise = c.clockwise;
-        if (vertices && !c.snorm && !c.clockwise) m.positions = &mesh.positions[0].x, m.triangles = mesh.indices.data();
+        if (vertices && packed == glm::dmat4(1.0) && !c.clockwise) m.positions = &mesh.positions[0].x, m.triangles = mesh.indices.data();
         out.meshes.push_back(m);
     }
 };
