@@ -129,7 +129,8 @@ uint64_t Shadows::record(size_t technique, const Request& r)
     frame.depth = to_gnomon(r.depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
     frame.background = convention_.reversed_depth ? 0.0f : 1.0f;
     if (r.normals) frame.normals = to_gnomon(*r.normals, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    frame.normal_encoding = encoding(convention_.normals);
+    // Ours are smooth, with no normal map in them, so that they also serve to keep surfaces off their own shadow.
+    frame.normal_encoding = encoding(convention_.normals) | GNOMON_NORMAL_GEOMETRIC;
     frame.output = to_gnomon(r.visibility, VK_IMAGE_LAYOUT_UNDEFINED); // written whole, and left in SHADER_READ_ONLY_OPTIMAL
     Culling culling{scene_, r.posed};
     frame.cull = may_cast;
