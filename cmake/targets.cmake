@@ -64,7 +64,10 @@ function(gnomon_shared_library)
     LINKER_LANGUAGE CXX EXPORT_NAME gnomon)
   target_link_libraries(gnomon_shared PRIVATE gnomon_options gnomon::techniques)
   if(NOT APPLE AND NOT MSVC)
-    target_link_options(gnomon_shared PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+    # A list, and not visibility alone: instances of standard templates are visible whatever the compiler is told.
+    set(map ${CMAKE_SOURCE_DIR}/cmake/package/exports.map)
+    target_link_options(gnomon_shared PRIVATE -Wl,--version-script=${map} -Wl,--no-undefined)
+    set_target_properties(gnomon_shared PROPERTIES LINK_DEPENDS ${map})
   endif()
 endfunction()
 

@@ -200,12 +200,12 @@ typedef struct gnomon_frame {
     VkBool32 y_up; /* the viewport's height is negative: row 0 of the images is clip y = 1 */
     uint32_t index; /* frame number, the only clock and seed */
     gnomon_light light;
-    gnomon_image depth; /* a depth or single-channel float format with VK_IMAGE_USAGE_SAMPLED_BIT; multisampled: sample 0. A null image: the
-                           receivers are what the view sees of the scene */
+    gnomon_image depth; /* a depth or single-channel float format with VK_IMAGE_USAGE_SAMPLED_BIT; multisampled: sample 0, at its standard
+                           location. A null image: the receivers are what the view sees of the scene */
     float background; /* depth where nothing was drawn: 0 reversed, else 1 */
-    gnomon_image normals; /* with VK_IMAGE_USAGE_SAMPLED_BIT, host space; a null image: made from the depth */
+    gnomon_image normals; /* of one sample, with VK_IMAGE_USAGE_SAMPLED_BIT, host space; a null image: made from the depth */
     uint32_t normal_encoding;
-    gnomon_image motion; /* rg = uv now - uv in the previous frame; a null image: nothing moved */
+    gnomon_image motion; /* of one sample; rg = uv now - uv in the previous frame; a null image: nothing moved */
     gnomon_image output; /* any colour format with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, of the receivers' size; 1 where all the light
                             arrives, and in the background */
     gnomon_cull cull; /* or NULL */

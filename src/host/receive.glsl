@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host's depth, and normals if there are, as Gnomon's G-buffer. The includer has host_depth(pixel).
+// A host's depth, and normals if there are, as Gnomon's G-buffer. The includer has host_depth(pixel), and defines MOVES where there is motion:
+// an output without a target makes validation warn.
 #ifndef GNOMON_HOST_RECEIVE_GLSL
 #define GNOMON_HOST_RECEIVE_GLSL
 #extension GL_GOOGLE_include_directive : require
@@ -7,12 +8,14 @@
 #include "src/host/receive.shared.h"
 
 layout(set = 0, binding = 1) uniform sampler2D normals;
+#ifdef MOVES
 layout(set = 0, binding = 2) uniform sampler2D motions;
+layout(location = 2) out vec2 motion_out;
+#endif
 layout(set = 1, binding = 0, scalar) uniform Constants { ReceiveConstants c; };
 
 layout(location = 0) out uvec2 normal_out;
 layout(location = 1) out uint primitive_out;
-layout(location = 2) out vec2 motion_out;
 
 vec2 ndc_of(ivec2 pixel) { return (vec2(pixel) + 0.5) / c.view.size * 2.0 - 1.0; }
 
@@ -62,7 +65,9 @@ void receive(ivec2 pixel)
 {
     const float depth = depth_at(pixel);
     gl_FragDepth = depth;
-    motion_out = c.moves != 0 ? texelFetch(motions, pixel, 0).xy : vec2(0.0);
+#ifdef MOVES
+    motion_out = texelFetch(motions, pixel, 0).xy;
+#endif
     if (depth == 0.0) {
         normal_out = uvec2(0);
         primitive_out = 0xffffffffu;

@@ -14,7 +14,6 @@ struct ReceiveConstants {
     vec4 normal_x, normal_y, normal_z; ///< rows of world from host, for directions
     float background; ///< the host's depth where nothing is
     uint normals; ///< encoding
-    uint moves; ///< 1: motion is there
 };
 
 SHARED_END

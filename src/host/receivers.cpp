@@ -32,7 +32,6 @@ shaders::ReceiveConstants constants_of(const gnomon_frame& frame, const HostView
     c.normal_x = rows[0], c.normal_y = rows[1], c.normal_z = rows[2];
     c.background = frame.background;
     c.normals = frame.normals.image ? frame.normal_encoding : NORMALS_NONE;
-    c.moves = frame.motion.image != VK_NULL_HANDLE;
     return c;
 }
 
@@ -41,6 +40,13 @@ void check_size(const gnomon_image& image, base::Size size, const char* name)
     if (int(image.extent.width) != size.width || int(image.extent.height) != size.height)
         refuse(GNOMON_ERROR_ARGUMENT, "gnomon_frame::{} has {} x {} pixels and the output {} x {}; all images of a frame have one size",
             name, image.extent.width, image.extent.height, size.width, size.height);
+}
+
+void check_attribute(const gnomon_image& image, base::Size size, const char* name)
+{
+    if (image.samples > VK_SAMPLE_COUNT_1_BIT)
+        refuse(GNOMON_ERROR_UNSUPPORTED, "gnomon_frame::{} is multisampled; resolve it into an image of one sample", name);
+    check_size(image, size, name);
 }
 
 } // namespace
@@ -52,8 +58,8 @@ shadow::GBuffer receive(
     gpu::Device& gpu = *casters.device().gpu;
     const base::Size size = host.view.size;
     check_size(frame.depth, size, "depth");
-    if (frame.normals.image) check_size(frame.normals, size, "normals");
-    if (frame.motion.image) check_size(frame.motion, size, "motion");
+    if (frame.normals.image) check_attribute(frame.normals, size, "normals");
+    if (frame.motion.image) check_attribute(frame.motion, size, "motion");
     if (frame.normal_encoding > (GNOMON_NORMAL_OCTAHEDRAL_UNSIGNED | GNOMON_NORMAL_GEOMETRIC))
         refuse(GNOMON_ERROR_ARGUMENT, "gnomon_frame::normal_encoding is {}; the encodings are 0 to 3, or 4 to 7 of geometric normals",
             frame.normal_encoding);
@@ -65,20 +71,26 @@ shadow::GBuffer receive(
     out.normal = image(VK_FORMAT_R32G32_UINT, "normal");
     out.primitive = image(VK_FORMAT_R32_UINT, "primitive");
     if (frame.motion.image) out.motion = image(VK_FORMAT_R32G32_SFLOAT, "motion");
-    gpu::ImageId none;
-    if (!frame.normals.image || !frame.motion.image) {
-        none = passes.transient(gpu::ImageDesc{VK_FORMAT_R32_SFLOAT, {1, 1}, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "no image"});
-        passes.clear(none, {}, "no image");
+    gpu::ImageId normals;
+    if (frame.normals.image) {
+        normals = images.import(passes, frame.normals, "normals", true);
+    } else {
+        normals = passes.transient(gpu::ImageDesc{VK_FORMAT_R32_SFLOAT, {1, 1}, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "no image"});
+        passes.clear(normals, {}, "no image");
     }
-    const bool samples = frame.depth.samples > VK_SAMPLE_COUNT_1_BIT;
+    const bool samples = frame.depth.samples > VK_SAMPLE_COUNT_1_BIT, moves = frame.motion.image != VK_NULL_HANDLE;
+    const char* const programs[2][2] = {{"src/host/receive.frag", "src/host/receive_moving.frag"},
+        {"src/host/receive_samples.frag", "src/host/receive_samples_moving.frag"}};
     gpu::RasterPass pass;
     pass.name = "receive";
-    pass.program = &gpu.raster_program("shaders/fullscreen.vert", samples ? "src/host/receive_samples.frag" : "src/host/receive.frag");
-    pass.bindings = {{images.import(passes, frame.depth, "depth", true), gpu::Use::sample},
-        {frame.normals.image ? images.import(passes, frame.normals, "normals", true) : none, gpu::Use::sample},
-        {frame.motion.image ? images.import(passes, frame.motion, "motion", true) : none, gpu::Use::sample}};
+    pass.program = &gpu.raster_program("shaders/fullscreen.vert", programs[samples][moves]);
+    pass.bindings = {{images.import(passes, frame.depth, "depth", true), gpu::Use::sample}, {normals, gpu::Use::sample}};
+    pass.colors = {{out.normal, gpu::Load::discard}, {out.primitive, gpu::Load::discard}};
+    if (moves) {
+        pass.bindings.push_back({images.import(passes, frame.motion, "motion", true), gpu::Use::sample});
+        pass.colors.push_back({out.motion, gpu::Load::discard});
+    }
     pass.constants = constants_of(frame, host, casters.world_from_host());
-    pass.colors = {{out.normal, gpu::Load::discard}, {out.primitive, gpu::Load::discard}, {out.motion, gpu::Load::discard}};
     pass.depth = gpu::DepthTarget{.image = out.depth, .load = gpu::Load::discard, .compare = VK_COMPARE_OP_ALWAYS};
     pass.draw = [](gpu::Encoder& encoder) { encoder.draw(3); };
     passes.raster(std::move(pass));

@@ -12,6 +12,7 @@ namespace gnomon::host {
 namespace {
 
 using glm::dmat3;
+using glm::dvec2;
 
 double scale_of(const dmat4& world_from_host) { return glm::length(dvec3(world_from_host[0])); }
 vec3 point(const dmat4& m, const float (&p)[3]) { return vec3(dvec3(m * dvec4(p[0], p[1], p[2], 1.0))); }
@@ -29,6 +30,23 @@ dmat4 finite_matrix(const float (&m)[16], const char* name)
 
 dvec4 row(const dmat4& m, int r) { return {m[0][r], m[1][r], m[2][r], m[3][r]}; }
 dmat4 from_rows(const dvec4& x, const dvec4& y, const dvec4& z, const dvec4& w) { return glm::transpose(dmat4(x, y, z, w)); }
+
+/// Where sample 0 lies in a pixel: Vulkan's standard sample locations.
+dvec2 first_sample(VkSampleCountFlagBits samples)
+{
+    switch (samples) {
+    case VK_SAMPLE_COUNT_2_BIT:
+        return {0.75, 0.75};
+    case VK_SAMPLE_COUNT_4_BIT:
+        return {0.375, 0.125};
+    case VK_SAMPLE_COUNT_8_BIT:
+        return {0.5625, 0.3125};
+    case VK_SAMPLE_COUNT_16_BIT:
+        return {0.5625, 0.5625};
+    default:
+        return {0.5, 0.5};
+    }
+}
 
 /// The plane's distance range over the corners of `bounds`.
 std::pair<double, double> range_of(const Bounds& bounds, const dvec4& plane)
@@ -96,6 +114,13 @@ HostView view_of(const gnomon_frame& frame, const dmat4& world_from_host, base::
         * glm::inverse(world_from_host);
     if (frame.y_up)
         clip_from_world = from_rows(row(clip_from_world, 0), -row(clip_from_world, 1), row(clip_from_world, 2), row(clip_from_world, 3));
+    if (frame.depth.samples > VK_SAMPLE_COUNT_1_BIT) {
+        // The view is moved by a part of a pixel, so that the sample lies where techniques look for a receiver: at the pixel's centre, the
+        // same depth is before or behind its surface.
+        const dvec2 off = 2.0 * (0.5 - first_sample(frame.depth.samples)) / dvec2(size.width, size.height);
+        const dvec4 w = row(clip_from_world, 3);
+        clip_from_world = from_rows(row(clip_from_world, 0) + off.x * w, row(clip_from_world, 1) + off.y * w, row(clip_from_world, 2), w);
+    }
     const double determinant = glm::determinant(clip_from_world);
     if (!std::isfinite(determinant) || determinant == 0.0)
         refuse(GNOMON_ERROR_ARGUMENT,

@@ -23,7 +23,7 @@ std::string processor()
 
 Provenance provenance(const gpu::Device& device)
 {
-    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION, std::string(commit())};
+    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION_TEXT, std::string(commit())};
 }
 
 std::filesystem::path default_results_folder(const std::string& device, const Experiment& experiment)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# Programs that know only what is installed in PREFIX, by CMake and by pkg-config.
+include(${CMAKE_CURRENT_LIST_DIR}/demand.cmake)
+set(source ${CMAKE_CURRENT_LIST_DIR}/consumer)
+set(configure ${CMAKE_COMMAND} -S ${source} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${PREFIX} ${OPTIONS})
+file(REMOVE_RECURSE ${FOLDER})
+
+demand(${configure} -B ${FOLDER}/build -DWANTED=${SOVERSION} -DPROGRAMS=ON)
+demand(${CMAKE_COMMAND} --build ${FOLDER}/build)
+foreach(program hello_c hello_cpp neighbours)
+  demand(${FOLDER}/build/${program})
+endforeach()
+
+# Another minor version is another library, below 1.0.
+foreach(version 0.1 0.3 1.0)
+  execute_process(COMMAND ${configure} -B ${FOLDER}/refused -DWANTED=${version} RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(result EQUAL 0 OR NOT text MATCHES "compatible")
+    message(FATAL_ERROR "version ${version} was asked for and ${VERSION} given:\n${text}")
+  endif()
+endforeach()
+
+find_program(pkg_config NAMES pkg-config pkgconf)
+if(pkg_config)
+  file(GLOB_RECURSE pc ${PREFIX}/lib/gnomon.pc)
+  get_filename_component(folder ${pc} DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} ${folder})
+  demand(${pkg_config} --cflags --libs gnomon)
+  separate_arguments(flags UNIX_COMMAND ${text})
+  if("-lvulkan" IN_LIST flags)
+    message(FATAL_ERROR "gnomon.pc links a Vulkan loader, which is the host's choice: ${text}")
+  endif()
+  demand(${CC} -std=c11 ${source}/hello.c -o ${FOLDER}/hello_pc ${flags})
+  demand(${pkg_config} --variable=libdir gnomon)
+  string(STRIP ${text} libdir)
+  demand(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libdir} ${FOLDER}/hello_pc)
+endif()
