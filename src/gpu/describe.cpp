@@ -97,6 +97,10 @@ std::vector<DrawCall> draw_calls(const ListData& list, const RasterPass& pass)
     return out;
 }
 
-std::string_view format_name(VkFormat format) { return format_info(format).name; }
+std::string_view format_name(VkFormat format)
+{
+    // of vertices alone, which the images' table lacks
+    return format == VK_FORMAT_R32G32B32_SFLOAT ? "R32G32B32_SFLOAT" : format_info(format).name;
+}
 
 } // namespace gnomon::gpu

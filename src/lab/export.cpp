@@ -26,6 +26,8 @@ Contents read_contents(gpu::Device& device, const Recording& r, const Json& reso
             out["buffer " + r.buffers[i]] = to_string(device.read_back(*r.list.buffers[i].imported));
     for (uint32_t i = 0; i < r.list.images.size(); ++i) {
         if (!resources["images"].contains(r.images[i]) || !resources["images"][r.images[i]].contains("needs_content")) continue;
+        const auto& parts = r.list.images[i].imported->state().parts;
+        if (std::any_of(parts.begin(), parts.end(), [](const auto& p) { return p.layout == VK_IMAGE_LAYOUT_UNDEFINED; })) continue;
         std::string& bytes = out["image " + r.images[i]];
         const gpu::ImageDesc& d = r.list.images[i].desc;
         for (uint32_t mip = 0; mip < d.mips; ++mip)

@@ -2,7 +2,6 @@
 #include "lab/export_spirv.h"
 
 #include <cstring>
-#include <optional>
 #include <set>
 
 #include <spirv_cross_c.h>
@@ -119,6 +118,20 @@ void layer_to_location(Words& words)
         if (i.op != SpvOpDecorate || i.words[2] != SpvDecorationBuiltIn || i.words[3] != SpvBuiltInLayer) return;
         i.words[2] = SpvDecorationLocation;
         i.words[3] = layer_location;
+    });
+}
+
+void integers_to_floats(Words& words)
+{
+    uint32_t real = 0;
+    std::set<uint32_t> integers;
+    for_each(words, [&](Instruction<uint32_t> i) {
+        if (i.op == SpvOpTypeFloat && i.words[2] == 32) real = i.words[1];
+        if (i.op == SpvOpTypeInt) integers.insert(i.words[1]);
+    });
+    constexpr uint32_t sampled = 1; // and not a storage image
+    for_each(words, [&](Instruction<uint32_t> i) {
+        if (real && i.op == SpvOpTypeImage && integers.count(i.words[2]) && i.words[7] == sampled) i.words[2] = real;
     });
 }
 

@@ -31,6 +31,9 @@ void uniforms_to_storage(Words&);
 inline constexpr uint32_t layer_location = 31;
 void layer_to_location(Words&);
 
+/// SPIRV-Cross refuses to gather integers in HLSL, which can: as images of floats they pass, and the text is put right.
+void integers_to_floats(Words&);
+
 /// HLSL knows neither the number of waves in a group nor a wave's own: both follow from the lanes of a wave, where waves fill a group in
 /// order.
 void waves_from_lanes(Words&, uint32_t group_size);

@@ -82,9 +82,18 @@ std::string to_glsl(const Words& words)
     return t.text();
 }
 
-/// The layer that became an ordinary output, and the buffers that SPIRV-Cross makes up without a place.
-std::string finish_hlsl(std::string text)
+/// The layer that became an ordinary output, the integers that became floats, and the buffer that SPIRV-Cross makes up without a place.
+std::string finish_hlsl(std::string text, const Json& resources)
 {
+    for (const Json& r : resources) {
+        const std::string type = r["type"], name = r["name"];
+        const bool wide = type.starts_with("usampler");
+        if (!wide && !type.starts_with("isampler")) continue;
+        const std::string floats = "<float4> " + name + " : register(";
+        const size_t at = text.find(floats);
+        if (at == std::string::npos) throw Failure("the image '" + name + "' of integers is not declared where it is looked for");
+        text.replace(at, 8, wide ? "<uint4>" : "<int4>");
+    }
     static const std::regex layer("\\bint (\\w+) : TEXCOORD" + std::to_string(layer_location));
     text = std::regex_replace(text, layer, "uint $1 : SV_RenderTargetArrayIndex");
     static const std::regex vertex_info("cbuffer SPIRV_Cross_VertexInfo\\s*\\{");
@@ -95,6 +104,7 @@ std::string to_hlsl(Words words, const UsedShader& shader, const Json& reflectio
 {
     uniforms_to_storage(words);
     layer_to_location(words);
+    integers_to_floats(words);
     if (shader.stage == VK_SHADER_STAGE_COMPUTE_BIT) {
         uint32_t group = 1;
         for (const Json& side : reflection["local_size"]) group *= side.get<uint32_t>();
@@ -104,14 +114,18 @@ std::string to_hlsl(Words words, const UsedShader& shader, const Json& reflectio
     t.set(SPVC_COMPILER_OPTION_HLSL_SHADER_MODEL, reflection.value("ray_query", false) ? 65 : 60);
     t.set(SPVC_COMPILER_OPTION_HLSL_SUPPORT_NONZERO_BASE_VERTEX_BASE_INSTANCE, 1);
     t.set(SPVC_COMPILER_OPTION_FLIP_VERTEX_Y, 1);
-    for (const spvc_reflected_resource& r : t.list(SPVC_RESOURCE_TYPE_STORAGE_BUFFER))
-        if (spvc_compiler_get_decoration(t.compiler, r.id, SpvDecorationDescriptorSet) == 1)
-            spvc_compiler_set_decoration(t.compiler, r.id, SpvDecorationNonWritable, 1);
+    for (const spvc_reflected_resource& r : t.list(SPVC_RESOURCE_TYPE_STORAGE_BUFFER)) {
+        const unsigned set = spvc_compiler_get_decoration(t.compiler, r.id, SpvDecorationDescriptorSet);
+        const unsigned binding = spvc_compiler_get_decoration(t.compiler, r.id, SpvDecorationBinding);
+        for (const Json& known : reflection["resources"])
+            if (known["set"] == set && known["binding"] == binding && known["type"].get<std::string>().starts_with("uniform "))
+                spvc_compiler_set_decoration(t.compiler, r.id, SpvDecorationNonWritable, 1);
+    }
     if (const spvc_variable_id groups = spvc_compiler_hlsl_remap_num_workgroups_builtin(t.compiler)) {
         spvc_compiler_set_decoration(t.compiler, groups, SpvDecorationDescriptorSet, hlsl_groups_space);
         spvc_compiler_set_decoration(t.compiler, groups, SpvDecorationBinding, 0);
     }
-    return finish_hlsl(t.text());
+    return finish_hlsl(t.text(), reflection["resources"]);
 }
 
 std::string to_msl(Words words, const UsedShader& shader, const Json& reflection)
