@@ -150,6 +150,7 @@ void add_constants(Json& recipe, Json& passes, const std::vector<std::vector<std
         if (!passes[i].contains("constants")) continue;
         const Json* block = constants_block(recipe, passes[i]);
         if (!block) continue;
+        passes[i]["constants"]["place"] = (*block)["place"];
         passes[i]["constants"]["members"] = (*block)["members"];
         passes[i]["constants"]["values"] = decode_block(constants[i], (*block)["members"], recipe["types"]);
     }
@@ -175,12 +176,17 @@ void add_contents(gpu::Device& device, const Stage& stage, const Choice& choice,
     }
 }
 
-/// Passes of the first frame that the later ones lack.
+/// Passes of the first frame that the later ones lack, or run on other targets or with other shaders.
 Json only_in_first(const Json& first, const Json& later)
 {
+    const auto same = [](const Json& a, const Json& b) {
+        for (const char* key : {"name", "programs", "colors", "depth", "value"})
+            if (a.value(key, Json()) != b.value(key, Json())) return false;
+        return true;
+    };
     Json out = Json::array();
     for (const Json& pass : first)
-        if (std::none_of(later.begin(), later.end(), [&](const Json& p) { return p["name"] == pass["name"]; })) out.push_back(pass);
+        if (std::none_of(later.begin(), later.end(), [&](const Json& p) { return same(pass, p); })) out.push_back(pass);
     return out;
 }
 

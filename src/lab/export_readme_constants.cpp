@@ -37,14 +37,14 @@ std::string struct_table(const std::string& name, const Json& type)
     return out + "\n";
 }
 
-std::string block_of(const Json& members)
+} // namespace
+
+std::string members_text(const Json& members)
 {
     std::string out;
     for (const Json& m : members) out += (out.empty() ? "" : ", ") + member_type(m) + " " + m["name"].get<std::string>();
     return out;
 }
-
-} // namespace
 
 std::string readme_constants(const Json& recipe)
 {
@@ -53,7 +53,7 @@ std::string readme_constants(const Json& recipe)
     for (const Json& pass : recipe["passes"]) {
         if (!pass.contains("constants") || !pass["constants"].contains("members")) continue;
         const Json& constants = pass["constants"];
-        const std::string text = fmt::format("`{}`, {} bytes", block_of(constants["members"]), constants["bytes"].get<size_t>());
+        const std::string text = fmt::format("`{}`, {} bytes", members_text(constants["members"]), constants["bytes"].get<size_t>());
         gather(constants["members"], recipe["types"], structs);
         const auto known = std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) { return b.first == text; });
         const std::string number = pass["number"].dump();

@@ -117,14 +117,24 @@ private:
 
     void constants()
     {
-        if (pass_.contains("textures")) line("the scene's textures at set 2");
+        if (pass_.contains("textures")) line("the scene's textures, at " + table_place());
         if (!pass_.contains("constants")) return;
         const Json& c = pass_["constants"];
-        line(fmt::format("constants: {} bytes at set 1", c["bytes"].get<size_t>()));
+        line(fmt::format("constants: {}{} bytes{}", c.contains("members") ? "`" + members_text(c["members"]) + "`, " : "",
+            c["bytes"].get<size_t>(), c.contains("place") ? ", at " + text(c["place"]) : ""));
         for (const Json& p : c.value("patches", Json::array()))
             line(fmt::format(
                 "before the pass, {} bytes of the constants from {} on are copied from the buffer `{}` at {}, which an earlier pass wrote",
                 text(p["bytes"]), text(p["to"]), text(p["buffer"]), text(p["from"])));
+    }
+
+    std::string table_place() const
+    {
+        for (const Json& p : programs())
+            for (const Json& stem : p["shaders"])
+                for (const Json& r : shader(stem)["resources"])
+                    if (r["set"] == 2) return text(r["place"]);
+        return "set 2";
     }
 
     static std::string equation(const Json& b)
@@ -258,7 +268,8 @@ std::string readme_passes(const Json& recipe)
     for (const Json& pass : recipe["passes"])
         out += PassText(recipe, pass).write(fmt::format("{}. {}", pass["number"].get<size_t>(), text(pass["name"]))) + "\n";
     if (!recipe.contains("first_frame")) return out;
-    out += "## Passes of the first frame alone\n\nThey run before the others, when scene or light is new.\n\n";
+    out += "## Passes of the first frame alone\n\nWhen scene or light is new: those that no later frame runs, and those that later frames "
+           "run on other targets or with other shaders.\n\n";
     for (const Json& pass : recipe["first_frame"]) out += PassText(recipe, pass).write(text(pass["name"])) + "\n";
     return out;
 }

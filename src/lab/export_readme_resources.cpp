@@ -34,15 +34,31 @@ std::string image_row(const std::string& name, const Json& image)
 }
 
 /// How a resource of the technique's own gets what is read before any pass wrote it.
-std::string content(const std::string& name, const Json& resource, bool temporal)
+std::string content(const std::string& name, const Json& resource)
 {
     if (resource.contains("data"))
         return fmt::format("- `{}` is the same for every scene: `{}` holds its bytes.\n", name, resource["data"].get<std::string>());
-    if (temporal)
-        return fmt::format(
-            "- `{}` holds what earlier frames left; at first all bytes are 0 unless a pass of the first frame says otherwise.\n", name);
+    if (!resource["written_by"].empty()) return fmt::format("- `{}` holds what the frame before left in it.\n", name);
     return fmt::format(
-        "- `{}` is made by the CPU from scene, light or view before the passes; the C++ that does it is named below.\n", name);
+        "- `{}` is made by the CPU from scene, light or view before the passes, by the C++ that is named under *Constants*.\n", name);
+}
+
+/// What the shaders declare a buffer to hold: the longest of their views of it.
+std::string holds(const Json& recipe, const std::string& buffer)
+{
+    std::string out;
+    for (const Json& pass : recipe["passes"])
+        for (const Json& b : pass.value("bindings", Json::array())) {
+            if (b.value("buffer", "") != buffer) continue;
+            for (const Json& program : pass["programs"])
+                for (const Json& stem : program["shaders"])
+                    for (const Json& r : recipe["shaders"][stem.get<std::string>()]["resources"]) {
+                        if (r["set"] != 0 || r["binding"] != b["binding"] || !r.contains("members")) continue;
+                        const std::string view = members_text(r["members"]);
+                        if (view.size() > out.size()) out = view;
+                    }
+        }
+    return out;
 }
 
 std::string host_gives(const Json& recipe)
@@ -94,16 +110,16 @@ std::string readme_resources(const Json& recipe)
     for (const auto& [name, image] : recipe["images"].items()) {
         if (image["origin"] == "host") continue;
         out += image_row(name + (image["origin"] == "kept" ? " (kept)" : image["origin"] == "output" ? " (**the result**)" : ""), image);
-        if (image.contains("needs_content")) contents += content(name, image, recipe["temporal"]);
+        if (image.contains("needs_content")) contents += content(name, image);
     }
     std::string buffers;
     for (const auto& [name, buffer] : recipe["buffers"].items()) {
         if (buffer["origin"] == "host") continue;
-        buffers += fmt::format("| {}{} | {} | {} | {} |\n", cell(name), buffer["origin"] == "kept" ? " (kept)" : "",
-            buffer["bytes"].get<uint64_t>(), passes(buffer["written_by"]), passes(buffer["read_by"]));
-        if (buffer.contains("needs_content")) contents += content(name, buffer, recipe["temporal"]);
+        buffers += fmt::format("| {}{} | {} | {} | {} | {} |\n", cell(name), buffer["origin"] == "kept" ? " (kept)" : "",
+            cell(holds(recipe, name)), buffer["bytes"].get<uint64_t>(), passes(buffer["written_by"]), passes(buffer["read_by"]));
+        if (buffer.contains("needs_content")) contents += content(name, buffer);
     }
-    if (!buffers.empty()) out += "\n| buffer | bytes here | written by | read by |\n| --- | --- | --- | --- |\n" + buffers;
+    if (!buffers.empty()) out += "\n| buffer | holds | bytes here | written by | read by |\n| --- | --- | --- | --- | --- |\n" + buffers;
     if (!contents.empty()) out += "\nRead before any pass has written them:\n\n" + contents;
     return out + "\n";
 }

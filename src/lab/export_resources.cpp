@@ -72,7 +72,7 @@ private:
             if (c.resolve) write(c.resolve);
         }
         if (!p.depth) return;
-        if (p.depth->load != gpu::Load::clear || p.depth->compare != VK_COMPARE_OP_ALWAYS) read(p.depth->image);
+        if (p.depth->load == gpu::Load::keep) read(p.depth->image);
         if (p.depth->write || p.depth->stencil) write(p.depth->image);
     }
     void add(const gpu::CopyImage& c) { read(c.from), write(c.to); }

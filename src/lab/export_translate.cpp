@@ -79,12 +79,17 @@ std::string to_glsl(const Words& words)
     Translator t(words, SPVC_BACKEND_GLSL);
     t.set(SPVC_COMPILER_OPTION_GLSL_VERSION, 460);
     t.set(SPVC_COMPILER_OPTION_GLSL_VULKAN_SEMANTICS, 1);
+    spvc_compiler_update_active_builtins(t.compiler);
+    // SPIRV-Cross leaves it out
+    if (spvc_compiler_has_active_builtin(t.compiler, SpvBuiltInLayer, SpvStorageClassOutput))
+        t.require(spvc_compiler_require_extension(t.compiler, "GL_ARB_shader_viewport_layer_array"));
     return t.text();
 }
 
 /// The layer that became an ordinary output, the integers that became floats, and the buffer that SPIRV-Cross makes up without a place.
 std::string finish_hlsl(std::string text, const Json& resources)
 {
+    bool unsigned_images = false, signed_images = false;
     for (const Json& r : resources) {
         const std::string type = r["type"], name = r["name"];
         const bool wide = type.starts_with("usampler");
@@ -93,7 +98,11 @@ std::string finish_hlsl(std::string text, const Json& resources)
         const size_t at = text.find(floats);
         if (at == std::string::npos) throw Failure("the image '" + name + "' of integers is not declared where it is looked for");
         text.replace(at, 8, wide ? "<uint4>" : "<int4>");
+        (wide ? unsigned_images : signed_images) = true;
     }
+    static const std::regex size_of("(uint\\d? spvTextureSize\\(\\w+)<float4>([^}]*\\}\n)");
+    if (unsigned_images) text = std::regex_replace(text, size_of, "$&\n$1<uint4>$2");
+    if (signed_images) text = std::regex_replace(text, size_of, "$&\n$1<int4>$2");
     static const std::regex layer("\\bint (\\w+) : TEXCOORD" + std::to_string(layer_location));
     text = std::regex_replace(text, layer, "uint $1 : SV_RenderTargetArrayIndex");
     static const std::regex vertex_info("cbuffer SPIRV_Cross_VertexInfo\\s*\\{");
