@@ -94,10 +94,11 @@ std::string finish_hlsl(std::string text, const Json& resources)
         const std::string type = r["type"], name = r["name"];
         const bool wide = type.starts_with("usampler");
         if (!wide && !type.starts_with("isampler")) continue;
-        const std::string floats = "<float4> " + name + " : register(";
-        const size_t at = text.find(floats);
+        const std::string floats = "<float4> ", wanted = wide ? "<uint4> " : "<int4> ", rest = name + " : register(";
+        if (text.find(wanted + rest) != std::string::npos) continue; // a module without floats has none to exchange them for
+        const size_t at = text.find(floats + rest);
         if (at == std::string::npos) throw Failure("the image '" + name + "' of integers is not declared where it is looked for");
-        text.replace(at, 8, wide ? "<uint4>" : "<int4>");
+        text.replace(at, floats.size(), wanted);
         (wide ? unsigned_images : signed_images) = true;
     }
     static const std::regex size_of("(uint\\d? spvTextureSize\\(\\w+)<float4>([^}]*\\}\n)");

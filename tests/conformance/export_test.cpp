@@ -181,7 +181,7 @@ TEST_F(Export, FilesCompile)
     }
 }
 
-gpu::ShaderSource embedded(const std::string& name) { return gpu::find_shader(name); }
+std::string stage_of(const std::string& stem) { return stem.substr(stem.rfind('.') + 1); }
 
 TEST_F(Export, GlslAndSpirvDrawTheSameBits)
 {
@@ -204,8 +204,10 @@ TEST_F(Export, GlslAndSpirvDrawTheSameBits)
                 const fs::path file = folder.path() / shader["file"].get<std::string>(), words = file.string() + ".words";
                 base::write_text(file, content(e, shader["file"]));
                 if (language == Language::glsl) {
-                    ASSERT_EQ(
-                        run(fmt::format("glslc -O --target-env=vulkan1.3 -o '{}' '{}'", words.string(), file.string()), folder.path()), "");
+                    ASSERT_EQ(run(fmt::format("glslc -O --target-env=vulkan1.3 -fshader-stage={} -o '{}' '{}'", stage_of(stem),
+                                      words.string(), file.string()),
+                                  folder.path()),
+                        "");
                 }
                 const std::vector<std::byte> bytes = base::read_file(language == Language::glsl ? words : file);
                 std::vector<uint32_t> spirv(bytes.size() / 4);
@@ -215,7 +217,7 @@ TEST_F(Export, GlslAndSpirvDrawTheSameBits)
             }
             EXPECT_TRUE(draw() == original) << id << " by its exported " << language_name(language);
             for (const std::string& name : replaced) {
-                const auto own = embedded(name).spirv;
+                const auto own = gpu::find_shader(name).spirv;
                 device().replace_shader(name, {own.begin(), own.end()});
             }
         }
