@@ -264,7 +264,9 @@ private:
 
 std::string readme_passes(const Json& recipe)
 {
-    std::string out = "## The passes\n\n";
+    std::string out = "## The passes\n\nWhere its specialisation constants keep a shader from looking at a binding, the pass gives "
+                      "whatever image or buffer is at "
+                      "hand: a binding that looks odd is such a one, and anything of its kind will do.\n\n";
     for (const Json& pass : recipe["passes"])
         out += PassText(recipe, pass).write(fmt::format("{}. {}", pass["number"].get<size_t>(), text(pass["name"]))) + "\n";
     if (!recipe.contains("first_frame")) return out;

@@ -116,23 +116,6 @@ void check_readme(const Exported& e, const Json& recipe)
         EXPECT_NE(text.find(fmt::format("### {}. {}", pass["number"].get<int>(), pass["name"].get<std::string>())), std::string::npos);
 }
 
-TEST_F(Export, SaysWhatTheShadersSay)
-{
-    for (const shadow::TechniqueInfo* info : shadow::techniques())
-        for (const Language language : languages) {
-            if (!available(*info)) continue;
-            SCOPED_TRACE(std::string(info->id) + " " + std::string(language_name(language)));
-            const Exported e = exported(*info, language);
-            const Json recipe = Json::parse(content(e, "passes.json"));
-            ASSERT_FALSE(recipe["passes"].empty());
-            EXPECT_EQ(recipe["images"][recipe["technique"]["output"].get<std::string>()]["origin"], "output");
-            check_resources(language, e, recipe);
-            check_bindings(recipe);
-            check_refused(language, e);
-            check_readme(e, recipe);
-        }
-}
-
 /// Compiles one file, in a shell script over many: prints a line only where it fails. glslang's HLSL knows neither ray queries, which
 /// are left out, nor NonUniformResourceIndex, which is nothing but a hint.
 const char* const compile_script = R"(
@@ -145,40 +128,63 @@ case $1 in
 esac || printf '%s\n%s\n' "$1" "$out" | head -n 8
 )";
 
-TEST_F(Export, FilesCompile)
+/// Files of all exports in one folder, each content once: techniques share shaders.
+class Collection {
+public:
+    void add(const std::string& id, Language language, const Exported& e, const Json& recipe)
+    {
+        for (const auto& [stem, shader] : recipe["shaders"].items()) {
+            if (!shader.contains("file") || !contents_.insert(content(e, shader["file"])).second) continue;
+            const fs::path file = folder_.path() / id / shader["file"].get<std::string>();
+            base::write_text(file, content(e, shader["file"]));
+            if (language != Language::msl) list_ += file.string() + "\n"; // no compiler of Metal's is packaged
+            ++of_language_[size_t(language)];
+        }
+        if (language != Language::glsl) return;
+        base::write_text(folder_.path() / id / "layouts.h", content(e, "layouts.h"));
+        headers_ += fmt::format("namespace {0} {{\n#include \"{0}/layouts.h\"\n}}\n", id);
+    }
+    void compile()
+    {
+        for (const size_t count : of_language_) EXPECT_GT(count, 50u);
+        base::write_text(folder_.path() / "compile.sh", compile_script);
+        base::write_text(folder_.path() / "list.txt", list_);
+        base::write_text(folder_.path() / "headers.cpp", headers_);
+        const std::string at = "cd '" + folder_.path().string() + "' && ";
+        EXPECT_EQ(run(at + "xargs -P 4 -n 1 sh compile.sh <list.txt >errors.txt 2>&1", folder_.path()), "");
+        EXPECT_EQ(base::read_text(folder_.path() / "errors.txt"), "");
+        if (has_program("c++")) {
+            EXPECT_EQ(run(at + "c++ -std=c++17 -Wall -fsyntax-only headers.cpp", folder_.path()), "");
+        }
+    }
+
+private:
+    const base::TemporaryFolder folder_;
+    std::set<std::string> contents_;
+    std::string headers_ = "#include <cstddef>\n#include <cstdint>\n", list_;
+    size_t of_language_[4] = {};
+};
+
+TEST_F(Export, EveryTechniqueSaysWhatItsShadersSayAndCompiles)
 {
-    for (const char* program : {"glslc", "glslangValidator", "spirv-val", "xargs"})
-        if (!has_program(program)) GTEST_SKIP() << program << " is not installed";
-    const base::TemporaryFolder folder;
-    base::write_text(folder.path() / "compile.sh", compile_script);
-    std::set<std::string> contents; // techniques share shaders
-    std::string headers = "#include <cstddef>\n#include <cstdint>\n", list;
-    size_t of_language[4] = {};
+    Collection all;
     for (const shadow::TechniqueInfo* info : shadow::techniques())
         for (const Language language : languages) {
             if (!available(*info)) continue;
+            SCOPED_TRACE(std::string(info->id) + " " + std::string(language_name(language)));
             const Exported e = exported(*info, language);
             const Json recipe = Json::parse(content(e, "passes.json"));
-            for (const auto& [stem, shader] : recipe["shaders"].items()) {
-                if (!shader.contains("file") || !contents.insert(content(e, shader["file"])).second) continue;
-                const fs::path file = folder.path() / std::string(info->id) / shader["file"].get<std::string>();
-                base::write_text(file, content(e, shader["file"]));
-                if (language != Language::msl) list += file.string() + "\n"; // no compiler of Metal's is packaged
-                ++of_language[size_t(language)];
-            }
-            if (language != Language::glsl) continue;
-            base::write_text(folder.path() / std::string(info->id) / "layouts.h", content(e, "layouts.h"));
-            headers += fmt::format("namespace {0} {{\n#include \"{0}/layouts.h\"\n}}\n", info->id);
+            ASSERT_FALSE(recipe["passes"].empty());
+            EXPECT_EQ(recipe["images"][recipe["technique"]["output"].get<std::string>()]["origin"], "output");
+            check_resources(language, e, recipe);
+            check_bindings(recipe);
+            check_refused(language, e);
+            check_readme(e, recipe);
+            all.add(std::string(info->id), language, e, recipe);
         }
-    for (const size_t count : of_language) EXPECT_GT(count, 50u);
-    base::write_text(folder.path() / "list.txt", list);
-    base::write_text(folder.path() / "headers.cpp", headers);
-    const std::string at = "cd '" + folder.path().string() + "' && ";
-    EXPECT_EQ(run(at + "xargs -P 4 -n 1 sh compile.sh <list.txt >errors.txt 2>&1", folder.path()), "");
-    EXPECT_EQ(base::read_text(folder.path() / "errors.txt"), "");
-    if (has_program("c++")) {
-        EXPECT_EQ(run(at + "c++ -std=c++17 -Wall -fsyntax-only headers.cpp", folder.path()), "");
-    }
+    for (const char* program : {"glslc", "glslangValidator", "spirv-val", "xargs"})
+        if (!has_program(program)) GTEST_SKIP() << program << " is not installed; what the exports say was checked";
+    all.compile();
 }
 
 std::string stage_of(const std::string& stem) { return stem.substr(stem.rfind('.') + 1); }
