@@ -43,7 +43,7 @@ const char* msl = R"(
 ### Metal
 
 - Metal Shading Language 2.4 (macOS 12, iOS 15), entry point `main0`.
-- Set 0: the binding is the index, `[[texture(N)]]` with `[[sampler(N)]]`, `[[buffer(N)]]`. The constants block is `[[buffer(24)]]`. The scene's textures are an argument buffer at `[[buffer(25)]]` (tier 2): textures from id 0, samplers from id 128; its size is the function constant 1000 or the macro that the file names. `[[buffer(26)]]`, where a file has it, holds the byte sizes of the buffers by their index.
+- Set 0: the binding is the index, `[[texture(N)]]` with `[[sampler(N)]]`, `[[buffer(N)]]`. The constants block is `[[buffer(24)]]`. The scene's textures are an argument buffer at `[[buffer(25)]]` (tier 2): textures from id 0, samplers from id 128 on. It holds 128 of each: for a scene with more, change that number in `spvDescriptorSetBuffer2`. `[[buffer(26)]]`, where a file has it, holds the byte sizes of the buffers by their index.
 - Vertex attributes come by a vertex descriptor (`[[attribute(location)]]`); put the streams at buffer indices from 30 down, out of the way.
 - Specialisation constants are function constants, or `SPIRV_CROSS_CONSTANT_ID_N` macros where they give an array its size. Their defaults are the values of the first pass that uses the shader. Give each pass its own, below.
 - A compute pass's `local size` is the threadgroup's size: Metal takes it at dispatch.

@@ -179,8 +179,7 @@ void give_table_size(Words& words)
         }
         const uint32_t type = next++, size = next++;
         append(out, Words{first_word(SpvOpTypeInt, 4), type, 32, 0});
-        append(out, Words{first_word(SpvOpDecorate, 4), size, SpvDecorationSpecId, table_size_id});
-        append(out, Words{first_word(SpvOpSpecConstant, 4), type, size, table_size});
+        append(out, Words{first_word(SpvOpConstant, 4), type, size, table_size});
         append(out, Words{first_word(SpvOpTypeArray, 4), i.words[1], i.words[2], size});
     });
     out[3] = next;

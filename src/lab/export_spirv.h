@@ -38,8 +38,8 @@ void integers_to_floats(Words&);
 /// order.
 void waves_from_lanes(Words&, uint32_t group_size);
 
-/// Metal has no arrays without a size: the texture table gets one, a specialisation constant.
-inline constexpr uint32_t table_size_id = 1000, table_size = 128;
+/// SPIRV-Cross asserts on arrays without a size in MSL, and argument buffers are structs of fixed ones: the texture table gets a size.
+inline constexpr uint32_t table_size = 128;
 void give_table_size(Words&);
 
 } // namespace gnomon::lab
