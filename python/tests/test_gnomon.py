@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The module as its users have it: arrays, their types and lifetimes, sentences of errors, threads, Ctrl-C."""
+"""The module as its users have it: arrays and their lifetimes, sentences, threads, Ctrl-C."""
 import _thread
 import doctest
 import gc
@@ -37,16 +37,23 @@ def truth(scene, **options):
     return gnomon.truth(scene, **{"size": SIZE, "samples": 64, "cache": cache.name, **options})
 
 
+def render(scene, technique="shadow_map", **options):
+    return gnomon.render(scene, technique, **{"size": SIZE, "device": device, **options})
+
+
 def lid_over_floor():
     lid = numpy.diag([0.5, 1, 0.5, 1])
     lid[1, 3] = 1
-    return gnomon.scene([gnomon.Mesh(5 * SQUARE, HALVES), gnomon.Mesh(SQUARE, HALVES, transforms=lid)])
+    floor = gnomon.Mesh(5 * SQUARE, HALVES)
+    return gnomon.scene([floor, gnomon.Mesh(SQUARE, HALVES, transforms=lid)])
 
 
 class Pictures(unittest.TestCase):
     def test_shapes_and_types(self):
-        image = gnomon.render("contact", "pcf", light="sun", size=SIZE, params={"kernel": 5, "map_size": 256}, aovs=["albedo"], device=device)
-        self.assertEqual((image.visibility.shape, image.visibility.dtype), ((90, 160), numpy.float32))
+        small = {"kernel": 5, "map_size": 256}
+        image = render("contact", "pcf", light="sun", params=small, aovs=["albedo"])
+        self.assertEqual(image.visibility.shape, (90, 160))
+        self.assertEqual(image.visibility.dtype, numpy.float32)
         self.assertEqual((image.lit.shape, image.lit.dtype), ((90, 160, 3), numpy.float32))
         self.assertEqual((image.picture.shape, image.picture.dtype), ((90, 160, 3), numpy.uint8))
         self.assertEqual((image.primitive.shape, image.primitive.dtype), ((90, 160), numpy.uint32))
@@ -59,21 +66,24 @@ class Pictures(unittest.TestCase):
         self.assertGreater(image.picture.std(), 10)
 
     def test_one_image_a_light_and_three_channels_where_the_light_has_an_image(self):
-        panel = gnomon.light("rect", position=(1.5, 3.5, 2.5), target=(0, 0.3, 0), width=1, height=1, image="window")
-        image = gnomon.render("contact", "light_sampling", light=["sun", panel], size=SIZE, params={"samples": 4}, lit=False, device=device)
+        panel = gnomon.light("rect", position=(1.5, 3.5, 2.5), target=(0, 0.3, 0), image="window")
+        lights = ["sun", panel]
+        image = render("contact", "light_sampling:samples=4", light=lights, lit=False)
         self.assertEqual([i.shape for i in image.images], [(90, 160), (90, 160, 3)])
         self.assertIsNone(image.lit)
         self.assertIsNone(image.picture)
 
     def test_a_quality_is_a_technique_with_parameters(self):
-        entries = [e for e in gnomon.qualities()["entries"] if (e["light"], e["area"], e["level"]) == ("directional", False, "low")]
-        image = gnomon.render("contact", light="sun,angle=0", size=SIZE, quality="low", device=device)
-        self.assertEqual([image.technique], [e["technique"] for e in entries])
+        low = ("directional", False, "low")
+        wanted = [e["technique"] for e in gnomon.qualities()["entries"]
+                  if (e["light"], e["area"], e["level"]) == low]
+        image = render("contact", light="sun,angle=0", quality="low")
+        self.assertEqual([image.technique], wanted)
 
     def test_arrays_outlive_what_made_them(self):
         arrays = []
         for _ in range(3):
-            image = gnomon.render("plane", size=SIZE, device=device)
+            image = render("plane")
             arrays += [image.visibility, image.lit, image.aovs["depth"], truth("plane").position]
         copies = [a.copy() for a in arrays]
         del image
@@ -91,10 +101,13 @@ class Pictures(unittest.TestCase):
             self.skipTest("GNOMON_PROGRAM does not name the program")
         with tempfile.TemporaryDirectory() as folder:
             for technique in ("pcf:kernel=5", "ray_traced"):
-                subprocess.run([program, "render", "contact", "--technique", technique, "--light", "lamp", "--camera", "floor", "--size",
-                                "160x90", "--aov", "visibility", "-o", f"{folder}/a.exr"], check=True, capture_output=True)
-                image = gnomon.render("contact", technique, light="lamp", camera="floor", size=SIZE, device=device)
-                numpy.testing.assert_array_equal(image.visibility, gnomon.read_exr(f"{folder}/a.visibility.exr"))
+                words = f"--technique {technique} --light lamp --camera floor --size 160x90"
+                words += f" --aov visibility -o {folder}/a.exr"
+                subprocess.run([program, "render", "contact", *words.split()],
+                               check=True, capture_output=True)
+                image = render("contact", technique, light="lamp", camera="floor")
+                visibility = gnomon.read_exr(f"{folder}/a.visibility.exr")
+                numpy.testing.assert_array_equal(image.visibility, visibility)
                 numpy.testing.assert_array_equal(image.lit, gnomon.read_exr(f"{folder}/a.exr"))
 
     def test_no_memory_is_lost(self):
@@ -102,7 +115,7 @@ class Pictures(unittest.TestCase):
 
         def work():
             t = truth(scene, light="sun,angle=0")
-            image = gnomon.render(scene, "shadow_map", light="sun,angle=0", size=SIZE, params={"map_size": 256}, device=device)
+            image = render(scene, "shadow_map:map_size=256", light="sun,angle=0")
             gnomon.compare(image, t, device=device)
             return device.allocated_bytes
 
@@ -119,8 +132,9 @@ class Pictures(unittest.TestCase):
 
 class Truths(unittest.TestCase):
     def test_a_square_casts_a_square(self):
-        t = truth(lid_over_floor(), light=gnomon.light("directional", direction=(0, -1, 0), angle=0),
-                  camera=gnomon.camera(eye=(0, 10, 0.01), target=(0, 0, 0), fov=30))
+        above = gnomon.camera(eye=(0, 10, 0.01), target=(0, 0, 0), fov=30)
+        noon = gnomon.light("directional", direction=(0, -1, 0), angle=0)
+        t = truth(lid_over_floor(), light=noon, camera=above)
         self.assertTrue(t.hard)
         self.assertEqual(t.variance.max(), 0)
         floor = t.primitive < 2
@@ -154,16 +168,18 @@ class Truths(unittest.TestCase):
 class Comparisons(unittest.TestCase):
     def test_a_technique_its_picture_and_its_numbers_agree(self):
         t = truth("contact", light="sun,angle=0")
-        image = gnomon.render(t.scene, "pcf", light="sun,angle=0", size=SIZE, params={"kernel": 5}, device=device)
-        by_name = gnomon.compare("pcf", t, params={"kernel": 5}, flip=True, reference="shadow_map", device=device)
-        by_picture = gnomon.compare(image, t, flip=True, reference="shadow_map", device=device)
+        image = render(t.scene, "pcf", light="sun,angle=0", params={"kernel": 5})
+        more = {"flip": True, "reference": "shadow_map", "device": device}
+        by_name = gnomon.compare("pcf", t, params={"kernel": 5}, **more)
+        by_picture = gnomon.compare(image, t, **more)
         self.assertEqual(by_name, by_picture)
         single = {m["id"] for m in gnomon.metrics() if m["hard"]}
         self.assertLessEqual(single, set(by_name))
         self.assertIn("flip", by_name)
         counted = (image.primitive == t.primitive) & (t.primitive != 0xffffffff)
         by_array = gnomon.compare(image.visibility, t, mask=counted, device=device)
-        self.assertAlmostEqual(by_array["mae"], float(abs(image.visibility - t.mean)[counted].mean()), places=6)
+        mae = float(abs(image.visibility - t.mean)[counted].mean())
+        self.assertAlmostEqual(by_array["mae"], mae, places=6)
         self.assertAlmostEqual(by_array["mae"], by_picture["mae"], places=4)
 
     def test_the_truth_is_right_and_its_opposite_is_not(self):
@@ -177,12 +193,13 @@ class Comparisons(unittest.TestCase):
         picture = gnomon.error_map(1 - t.mean, t)
         self.assertEqual(picture.dtype, numpy.uint8)
         self.assertEqual(picture.shape[1:], (160, 3))
-        lit, dark = picture[:90][(t.mean == 1) & (t.primitive != 0xffffffff)], picture[:90][t.mean == 0]
+        lit = picture[:90][(t.mean == 1) & (t.primitive != 0xffffffff)]
+        dark = picture[:90][t.mean == 0]
         self.assertGreater(lit[:, 2].mean(), lit[:, 0].mean())
         self.assertGreater(dark[:, 0].mean(), dark[:, 2].mean())
 
     def test_flip_of_two_pictures(self):
-        image = gnomon.render("contact", light="sun", size=SIZE, device=device)
+        image = render("contact", light="sun")
         shown = numpy.clip(image.lit / image.lit.max(), 0, 1)
         mean, picture = gnomon.flip(shown, shown)
         self.assertEqual((mean, picture.shape), (0, (90, 160)))
@@ -194,16 +211,18 @@ class Arrays(unittest.TestCase):
         places = numpy.stack([numpy.eye(4), numpy.eye(4)])
         places[:, :3, 3] = [[0, 1, 0], [3, 1, 0]]
         red = gnomon.Material(color=(1, 0, 0))
-        scene = gnomon.scene([gnomon.Mesh(5 * SQUARE, HALVES), gnomon.Mesh(SQUARE, HALVES, red, places)], name="two lids")
+        floor, lids = gnomon.Mesh(5 * SQUARE, HALVES), gnomon.Mesh(SQUARE, HALVES, red, places)
+        scene = gnomon.scene([floor, lids], name="two lids")
         self.assertEqual((scene.name, scene.triangle_count), ("two lids", 6))
         self.assertEqual(scene.bounds, ((-5, 0, -5), (5, 1, 5)))
         above = gnomon.camera(eye=(0, 20, 0.01), target=(0, 0, 0), fov=40)
-        image = gnomon.render(scene, camera=above, size=SIZE, aovs="albedo", device=device)
+        image = render(scene, camera=above, aovs="albedo")
         self.assertEqual(set(numpy.unique(image.primitive)) - {0xffffffff}, set(range(6)))
-        numpy.testing.assert_allclose(image.aovs["albedo"][image.primitive == 4], numpy.tile([1, 0, 0], (numpy.sum(image.primitive == 4), 1)), atol=0.01)
+        colors = image.aovs["albedo"][image.primitive == 4]
+        self.assertGreater(len(colors), 50)
+        self.assertLess(abs(colors - [1, 0, 0]).max(), 0.01)
 
-    def test_as_right_as_a_file(self):
-        """A built-in scene's floor and boards, rebuilt from arrays of another layout in memory."""
+    def test_arrays_of_any_layout_in_memory(self):
         wide = numpy.zeros((4, 6), numpy.float32)
         wide[:, ::2] = SQUARE
         strided = wide[:, ::2]
@@ -212,47 +231,60 @@ class Arrays(unittest.TestCase):
         self.assertEqual(scene.bounds, ((-1, 0, -1), (1, 0, 1)))
 
     def test_sentences(self):
-        mesh, scene = gnomon.Mesh, lid_over_floor()
+        scene = lid_over_floor()
         t = truth(scene)
         flat = numpy.eye(4)
         flat[1, 1] = 0
         hole = SQUARE.copy()
         hole[2, 1] = numpy.nan
+
+        def mesh(*arrays, **more):
+            return lambda: gnomon.scene([gnomon.Mesh(*arrays, **more)])
+
+        def draw(*words, **more):
+            return lambda: gnomon.render(scene, *words, device=device, **more)
+
+        def judge(image, **more):
+            return lambda: gnomon.compare(image, t, **more)
+
+        red, half = gnomon.Material(color=(2, 0, 0)), gnomon.Material(alpha="half")
+        panel, upright = gnomon.light("rect", width=1), draw(size=(90, 160))()
         cases = [
-            (lambda: gnomon.scene([mesh(SQUARE.astype(float), HALVES)]), "vertices of mesh 0 takes N x 3 of float32, not float64"),
-            (lambda: gnomon.scene([mesh(SQUARE[:, :2], HALVES)]), "vertices of mesh 0 takes N x 3 of float32, not 4x2"),
-            (lambda: gnomon.scene([mesh(SQUARE.tolist(), HALVES)]), "not a list; numpy.asarray makes one"),
-            (lambda: gnomon.scene([mesh(hole, HALVES)]), "row 2 of vertices of mesh 0 holds nan"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES.astype(numpy.int64))]), "triangles of mesh 0 takes N x 3 of uint32, not int64"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES + numpy.uint32(1))]), "holds the index 4 in row 1, but there are 4 vertices"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES[:0])]), "mesh 0 has no triangle"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, normals=SQUARE[:3])]), "normals of mesh 0 has 3 rows for 4 vertices"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, normals=0 * SQUARE)]), "row 0 of normals of mesh 0 has no direction"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, transforms=flat)]), "matrix 0 of transforms of mesh 0 flattens the mesh"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, transforms=numpy.eye(3))]), "4 x 4, or N x 4 x 4"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, gnomon.Material(color=(2, 0, 0)))]), "color of material 0 takes three"),
-            (lambda: gnomon.scene([mesh(SQUARE, HALVES, gnomon.Material(alpha="half"))]), "alpha of material 0 is half"),
+            (mesh(SQUARE.astype(float), HALVES),
+             "vertices of mesh 0 takes N x 3 of float32, not float64; convert it with .astype"),
+            (mesh(SQUARE[:, :2], HALVES), "vertices of mesh 0 takes N x 3 of float32, not 4x2"),
+            (mesh(SQUARE.tolist(), HALVES), "not a list; numpy.asarray makes one"),
+            (mesh(hole, HALVES), "row 2 of vertices of mesh 0 holds nan"),
+            (mesh(SQUARE, HALVES.astype(numpy.int64)), "mesh 0 takes N x 3 of uint32, not int64"),
+            (mesh(SQUARE, HALVES + numpy.uint32(1)), "index 4 in row 1, but there are 4 vertices"),
+            (mesh(SQUARE, HALVES[:0]), "mesh 0 has no triangle"),
+            (mesh(SQUARE, HALVES, normals=SQUARE[:3]), "of mesh 0 has 3 rows for 4 vertices"),
+            (mesh(SQUARE, HALVES, normals=0 * SQUARE), "normals of mesh 0 has no direction"),
+            (mesh(SQUARE, HALVES, transforms=flat), "transforms of mesh 0 flattens the mesh"),
+            (mesh(SQUARE, HALVES, transforms=numpy.eye(3)), "4 x 4, or N x 4 x 4"),
+            (mesh(SQUARE, HALVES, red), "color of material 0 takes three"),
+            (mesh(SQUARE, HALVES, half), "alpha of material 0 is half"),
             (lambda: gnomon.scene([]), "a scene takes one mesh at least"),
             (lambda: gnomon.scene([SQUARE]), "a scene is made of gnomon.Mesh"),
             (lambda: gnomon.load("citadell"), "citadel"),
-            (lambda: gnomon.render(scene, "pccf", device=device), "pcf"),
-            (lambda: gnomon.render(scene, "pcf", params={"kernal": 3}, device=device), "kernel"),
-            (lambda: gnomon.render(scene, "pcf", params={"kernel": 5000}, device=device), "5000"),
-            (lambda: gnomon.render(scene, "pcf", params={"kernel": [3]}, device=device), "it takes a number, a truth value or a text"),
-            (lambda: gnomon.render(scene, light="moon", device=device), "moon"),
-            (lambda: gnomon.render(scene, light=3.0, device=device), "a light is a text"),
-            (lambda: gnomon.render(scene, size=640, device=device), "it takes (width, height) in pixels"),
-            (lambda: gnomon.render(scene, size=(640, -1), device=device), "height is -1"),
-            (lambda: gnomon.render(scene, aovs=["colour"], device=device), "there is no further image 'colour'"),
-            (lambda: gnomon.render(scene, "shadow_map", light=gnomon.light("rect", width=1), device=device), "rect"),
-            (lambda: gnomon.truth(scene, samples=0), "samples is 0; it takes a whole number from 1 to 1048576"),
+            (draw("pccf"), "pcf"),
+            (draw("pcf", params={"kernal": 3}), "kernel"),
+            (draw("pcf", params={"kernel": 5000}), "5000"),
+            (draw("pcf", params={"kernel": [3]}), "a number, a truth value or a text"),
+            (draw("pcf", quality="high"), "a quality is a technique with its parameters"),
+            (draw(quality="hihg"), "high"),
+            (draw(light="moon"), "moon"),
+            (draw(light=3.0), "a light is a text"),
+            (draw(light=panel), "rect"),
+            (draw(size=640), "it takes (width, height) in pixels"),
+            (draw(size=(640, -1)), "height is -1"),
+            (draw(aovs=["colour"]), "there is no further image 'colour'"),
+            (lambda: gnomon.truth(scene, samples=0), "samples is 0; it takes a whole number"),
             (lambda: gnomon.truth(scene, light=["sun", "sun"]), "the truth is of one light"),
-            (lambda: gnomon.compare(t.mean.astype(float), t), "image takes height x width"),
-            (lambda: gnomon.compare(t.mean[:8], t), "image has 160x8 pixels and 1 channels, the truth 160x90 and 1"),
-            (lambda: gnomon.compare(t.mean, t, mask=t.mean), "mask takes 90 x 160 (height x width) of bool, not float32"),
-            (lambda: gnomon.compare(gnomon.render(scene, size=(90, 160), device=device), t), "another scene, camera, light or size"),
-            (lambda: gnomon.render(scene, quality="hihg", device=device), "high"),
-            (lambda: gnomon.render(scene, "pcf", quality="high", device=device), "a quality is a technique with its parameters"),
+            (judge(t.mean.astype(float)), "image takes height x width"),
+            (judge(t.mean[:8]), "image has 160x8 pixels and 1 channels, the truth 160x90 and 1"),
+            (judge(t.mean, mask=t.mean), "mask takes 90 x 160 (height x width) of bool"),
+            (judge(upright), "another scene, camera, light or size"),
             (lambda: gnomon.Device("no such device"), "no such device"),
             (lambda: gnomon.read_exr("nowhere.exr"), "nowhere.exr"),
         ]
@@ -275,7 +307,8 @@ class Threads(unittest.TestCase):
             except BaseException as e:  # noqa: B902 (a thread's own would be lost)
                 failures.append(e)
 
-        threads = [threading.Thread(target=draw, args=(d,)) for d in (gnomon.Device(validation=True), device, device)]
+        devices = (gnomon.Device(validation=True), device, device)
+        threads = [threading.Thread(target=draw, args=(d,)) for d in devices]
         for thread in threads:
             thread.start()
         for thread in threads:
@@ -298,6 +331,16 @@ class Threads(unittest.TestCase):
         thread.join()
         self.assertGreater(len(ticks), 10 * took)
 
+    def test_ctrl_c_ends_a_long_render_and_the_device_stays_good(self):
+        before = gnomon.render("contact", size=SIZE, device=device)
+        threading.Timer(0.7, _thread.interrupt_main).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            gnomon.render("contact", size=(640, 360), samples=4096, device=device)
+        self.assertLess(time.monotonic() - begin, 10)
+        after = gnomon.render("contact", size=SIZE, device=device)
+        numpy.testing.assert_array_equal(before.lit, after.lit)
+
 
 class Words(unittest.TestCase):
     def test_catalogues(self):
@@ -310,7 +353,8 @@ class Words(unittest.TestCase):
         self.assertIn("mae", {m["id"] for m in gnomon.metrics()})
 
     def test_examples_in_docstrings(self):
-        result = doctest.testmod(gnomon, extraglobs={"gnomon": gnomon, "numpy": numpy}, optionflags=doctest.NORMALIZE_WHITESPACE)
+        result = doctest.testmod(gnomon, extraglobs={"gnomon": gnomon, "numpy": numpy},
+                                 optionflags=doctest.NORMALIZE_WHITESPACE)
         self.assertGreater(result.attempted, 10)
         self.assertEqual(result.failed, 0)
 
@@ -323,8 +367,10 @@ class Words(unittest.TestCase):
         page = os.path.join(os.path.dirname(example), "..", "..", "docs", "python.md")
         with open(page, encoding="utf-8") as text:
             self.assertIn("".join(body.partition("import gnomon")[1:]), text.read())
-        lines = subprocess.run([sys.executable, example], check=True, capture_output=True, text=True).stdout.splitlines()
-        self.assertEqual([line.split()[0] for line in lines], ["shadow_map:map_size=1024", "pcf:kernel=5", "ray_traced"])
+        ran = subprocess.run([sys.executable, example], check=True, capture_output=True, text=True)
+        lines = ran.stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines],
+                         ["shadow_map:map_size=1024", "pcf:kernel=5", "ray_traced"])
         wrong = [float(line.split()[1]) for line in lines]
         self.assertLess(wrong[2], wrong[0])
 

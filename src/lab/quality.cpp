@@ -20,8 +20,14 @@ std::string light_text(const Quality& q)
     return std::string(scene::kind_name(q.light)) + (always ? "" : q.area ? ", with an area" : ", without area");
 }
 
-/// "1.0 (0.8 to 1.2)"
-std::string time_text(const Price& p) { return fmt::format("{:.2g} ({:.2g} to {:.2g})", p.time, p.least_time, p.most_time); }
+/// Two digits are what a busy machine leaves of a ratio.
+std::string ratio_text(double v) { return v < 9.95 ? fmt::format("{:.2g}", v) : fmt::format("{:.0f}", v); }
+
+/// "1.2 (0.8 to 2)"
+std::string time_text(const Price& p)
+{
+    return fmt::format("{} ({} to {})", ratio_text(p.time), ratio_text(p.least_time), ratio_text(p.most_time));
+}
 
 } // namespace
 
