@@ -53,8 +53,8 @@ nlohmann::ordered_json qualities_json()
         nlohmann::ordered_json entry = {{"light", scene::kind_name(q.light)}, {"area", q.area}, {"level", level_name(q.level)},
             {"technique", choice_text(choice_of(q))}};
         if (q.price) {
-            entry["price"] = {{"time", q.price->time}, {"least_time", q.price->least_time}, {"most_time", q.price->most_time},
-                {"mib", q.price->mib}, {"mae", q.price->mae}};
+            entry["price"] = {{"where", q.price->where}, {"time", q.price->time}, {"least_time", q.price->least_time},
+                {"most_time", q.price->most_time}, {"mib", q.price->mib}, {"mae", q.price->mae}};
             if (q.price->wrong_pixels) entry["price"]["wrong_pixels"] = *q.price->wrong_pixels;
         }
         entries.push_back(entry);
@@ -69,10 +69,11 @@ std::string qualities_text()
     for (const Quality& q : table.entries) {
         if (light_text(q) != light) {
             light = light_text(q);
-            out += fmt::format("\n{:<34} {:<20} {:>8} {:>10} {:>10}  technique\n", light, "time of the baseline", "MiB", "mae", "wrong");
+            out += fmt::format("\n{}: {}\n  {:<8} {:<20} {:>8} {:>10} {:>10}  technique\n", light,
+                q.price ? q.price->where : "not measured", "", "time", "MiB", "mae", "wrong");
         }
         const Price p = q.price.value_or(Price{});
-        out += fmt::format("  {:<32} {:<20} {:>8.4g} {:>10.3g} {:>10}  {}\n", level_name(q.level), time_text(p), p.mib, p.mae,
+        out += fmt::format("  {:<8} {:<20} {:>8.4g} {:>10.3g} {:>10}  {}\n", level_name(q.level), time_text(p), p.mib, p.mae,
             p.wrong_pixels ? fmt::format("{:.3g}", *p.wrong_pixels) : "-", choice_text(choice_of(q)));
     }
     return out;
@@ -85,7 +86,8 @@ std::string qualities_page(const QualityTable& table)
         if (light_text(q) != light) {
             light = light_text(q);
             out += fmt::format(
-                "\n**{}**\n\n| level | technique | time | MiB | mae | wrong pixels |\n| --- | --- | --- | ---: | ---: | ---: |\n", light);
+                "\n**{}**: {}\n\n| level | technique | time | MiB | mae | wrong pixels |\n| --- | --- | --- | ---: | ---: | ---: |\n",
+                light, q.price ? q.price->where : "not measured");
         }
         const Price p = q.price.value_or(Price{});
         out += fmt::format("| {} | `{}` | {} | {:.4g} | {:.3g} | {} |\n", level_name(q.level), choice_text(choice_of(q)), time_text(p),

@@ -57,6 +57,8 @@ double least_ms(const Json& run) { return run.at("technique_least_ms").get<doubl
 /// A number with four digits: what a reader can use, and what another machine's last bits do not change.
 Json rounded(double value) { return Json::parse(fmt::format("{:.4g}", value)); }
 
+std::string size_text(const Json& run) { return fmt::format("{}x{}", run.at("size")[0].get<int>(), run.at("size")[1].get<int>()); }
+
 Json price_of(const std::vector<Json>& runs, const shadow::Quality& q, const shadow::TechniqueInfo& baseline, const std::string& experiment)
 {
     const shadow::ParamValues defaults(baseline.params());
@@ -74,13 +76,14 @@ Json price_of(const std::vector<Json>& runs, const shadow::Quality& q, const sha
         wrong += q.area ? 0.0 : run->at("metrics").at("wrong_pixels").get<double>();
     }
     const double count = double(own.size());
-    Json out = {{"time", rounded(time / count)}, {"least_time", rounded(least)}, {"most_time", rounded(most)},
+    std::vector<std::string> scenes;
+    for (const auto& [scene, run] : own) scenes.push_back(scene);
+    Json out = {{"where", fmt::format("{} at {}", fmt::join(scenes, ", "), size_text(*own.begin()->second))},
+        {"time", rounded(time / count)}, {"least_time", rounded(least)}, {"most_time", rounded(most)},
         {"mib", rounded(bytes / count / 1048576.0)}, {"mae", rounded(mae / count)}};
     if (!q.area) out["wrong_pixels"] = rounded(wrong / count);
     return out;
 }
-
-std::string size_text(const Json& run) { return fmt::format("{}x{}", run.at("size")[0].get<int>(), run.at("size")[1].get<int>()); }
 
 } // namespace
 
@@ -89,22 +92,17 @@ std::string priced_qualities(const fs::path& root)
     Json json = Json::parse(base::read_text(root / "presets" / "quality.json"));
     const shadow::QualityTable table = shadow::parse_qualities(json.dump());
     const shadow::TechniqueInfo& baseline = shadow::technique("shadow_map");
-    std::set<std::string> devices, scenes, hard_sizes, area_sizes;
+    std::set<std::string> devices;
     for (size_t i = 0; i < table.entries.size(); ++i) {
         const shadow::Quality& q = table.entries[i];
         const std::string experiment = fmt::format("quality_{}_{}", scene::kind_name(q.light), q.area ? with_area : without_area);
         const std::vector<Json> runs = read_results(root, experiment);
-        for (const Json& run : runs) {
-            devices.insert(run.at("device").get<std::string>() + " (" + run.at("driver").get<std::string>() + ")");
-            scenes.insert(run.at("scene"));
-            (q.area ? area_sizes : hard_sizes).insert(size_text(run));
-        }
+        for (const Json& run : runs) devices.insert(run.at("device").get<std::string>() + " (" + run.at("driver").get<std::string>() + ")");
         json["entries"][i]["price"] = price_of(runs, q, baseline, experiment);
     }
-    json["measured"]
-        = fmt::format("Measured on {}: means over {} at {}, of lights with an area at {}. Time is the least of some frames over that of "
-                      "`shadow_map` with its defaults in the same sweep, under the same light shrunk to a point.",
-            fmt::join(devices, " and "), fmt::join(scenes, ", "), fmt::join(hard_sizes, " and "), fmt::join(area_sizes, " and "));
+    json["measured"] = fmt::format("Measured on {}. Numbers are means over the scenes; time is the least of some frames, its unit "
+                                   "that of `shadow_map` with its defaults in the same sweep, under the same light shrunk to a point.",
+        fmt::join(devices, " and "));
     return json.dump(1) + "\n";
 }
 

@@ -27,7 +27,7 @@ scene::LightKind parse_kind(const std::string& name)
 
 Price parse_price(const Json& json)
 {
-    Price out{json.at("time"), json.at("least_time"), json.at("most_time"), json.at("mib"), json.at("mae"), {}};
+    Price out{json.at("where"), json.at("time"), json.at("least_time"), json.at("most_time"), json.at("mib"), json.at("mae"), {}};
     if (json.contains("wrong_pixels")) out.wrong_pixels = json["wrong_pixels"].get<double>();
     return out;
 }

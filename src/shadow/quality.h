@@ -20,6 +20,7 @@ Level parse_level(std::string_view); ///< throws base::Error, which lists them
 
 /// What an entry was measured at, mean over its scenes.
 struct Price {
+    std::string where; ///< scenes and size
     double time = 0; ///< its own passes' time as a multiple of the baseline's in the same run
     double least_time = 0, most_time = 0; ///< over the scenes
     double mib = 0; ///< device memory beyond its image
@@ -37,7 +38,7 @@ struct Quality {
 };
 
 struct QualityTable {
-    std::string measured; ///< a sentence: device, scenes, sizes
+    std::string measured; ///< two sentences: on which device, and what the numbers are
     std::string baseline; ///< what a time of 1 is
     std::vector<Quality> entries; ///< by light, area and level; of one level, in the order in which they are to be tried
 };
