@@ -111,11 +111,11 @@ class Pictures(unittest.TestCase):
                 numpy.testing.assert_array_equal(image.lit, gnomon.read_exr(f"{folder}/a.exr"))
 
     def test_no_memory_is_lost(self):
-        scene = gnomon.load("contact")
+        scene, lamp, size = gnomon.load("contact"), gnomon.light("lamp", radius=0.2), (480, 270)
 
         def work():
-            t = truth(scene, light="sun,angle=0")
-            image = render(scene, "shadow_map:map_size=256", light="sun,angle=0")
+            t = truth(scene, light=lamp, size=size, samples=4)
+            image = render(scene, "shadow_map:map_size=256", light=lamp, size=size)
             gnomon.compare(image, t, device=device)
             return device.allocated_bytes
 
@@ -126,8 +126,9 @@ class Pictures(unittest.TestCase):
 
         on_device = [work() for _ in range(16)][-1]
         before = resident()
-        self.assertLessEqual([work() for _ in range(60)][-1], on_device)
-        self.assertLess(resident() - before, 8 << 20)  # one call's arrays alone are over 0.5 MiB
+        self.assertLessEqual([work() for _ in range(48)][-1], on_device)
+        # a leak of the smallest array alone would be 24 MiB; the allocator keeps some of what is free
+        self.assertLess(resident() - before, 16 << 20)
 
 
 class Truths(unittest.TestCase):
