@@ -29,7 +29,7 @@ std::string technique_id(const std::string& choice); ///< of "id:name=value", or
 
 struct List {
     Common common;
-    bool scenes = false;
+    bool scenes = false, qualities = false;
 };
 int list(const List&);
 
@@ -37,6 +37,7 @@ struct Render {
     Common common;
     Picture picture;
     std::string technique = "shadow_map", output;
+    std::string quality; ///< shadow::parse_level: in the place of `technique`; empty = that
     std::vector<std::string> parameters, aovs; ///< name=value; aov names
     int samples = 1, frame = 0, repeats = 1;
     float exposure = 0, ambient = 0.45f; ///< stops; relative

@@ -89,13 +89,19 @@ int run(int argc, char** argv)
 
     cli::List list;
     CLI::App* list_app = app.add_subcommand("list", "Techniques, lights they take, what this device cannot run and why");
-    list_app->add_flag("--scenes", list.scenes, "List the built-in scenes instead");
+    CLI::Option* scenes_flag = list_app->add_flag("--scenes", list.scenes, "List the built-in scenes instead");
+    list_app->add_flag("--qualities", list.qualities, "List what low, medium, high and exact quality are, cost and err instead")
+        ->excludes(scenes_flag);
     cli::add_common(*list_app, list.common);
 
     cli::Render render;
     CLI::App* render_app = app.add_subcommand("render", "Make a picture");
     cli::add_picture(*render_app, render.picture);
-    render_app->add_option("--technique", render.technique, "Technique, by its id")->capture_default_str();
+    CLI::Option* technique = render_app->add_option("--technique", render.technique, "Technique, by its id")->capture_default_str();
+    render_app
+        ->add_option(
+            "--quality", render.quality, "low, medium, high or exact: the technique that `gnomon list --qualities` has for the light")
+        ->excludes(technique);
     render_app->add_option("-o,--output", render.output, "PNG or EXR file (default: out/SCENE.TECHNIQUE.png)");
     render_app
         ->add_option("--aov", render.aovs,
@@ -230,7 +236,9 @@ int run(int argc, char** argv)
     }
     if (*list_app) return cli::list(list);
     if (*render_app) {
-        for (const std::string& item : cli::technique_options(*render_app, render.technique)) render.parameters.push_back(item);
+        if (!render.quality.empty() && !render_app->remaining().empty())
+            cli::refuse_words(*render_app, render_app->remaining(), " (a quality has its parameters; see `gnomon list --qualities`)");
+        render.parameters = cli::technique_options(*render_app, render.technique);
         return cli::render(render);
     }
     if (*view_app) {

@@ -5,6 +5,7 @@
 #include "base/image_file.h"
 #include "base/names.h"
 #include "lab/aov.h"
+#include "lab/quality.h"
 #include "lab/render.h"
 
 #include <fmt/format.h>
@@ -69,15 +70,16 @@ int render(const Render& options)
         choice.params.set(item.substr(0, equals), std::string_view(item).substr(equals + 1));
     }
     lab::StageOptions stage_choice = stage_options(options.picture);
-    stage_choice.kinds = choice.info->lights;
+    if (options.quality.empty()) stage_choice.kinds = choice.info->lights;
     const lab::Stage stage = lab::open_stage(stage_choice);
+    const auto device = open_device(options.common);
+    if (!options.quality.empty()) choice = lab::quality_choice(options.quality, *device, stage.lights);
     for (const std::string& warning : stage.scene.warnings) fmt::print(stderr, "gnomon: warning: {}\n", warning);
     const fs::path file = options.output.empty()
         ? fs::path("out") / (fs::path(options.picture.scene).stem().string() + "." + std::string(choice.info->id) + ".png")
         : fs::path(options.output);
     if (file.extension() != ".png" && file.extension() != ".exr")
         base::fail("'{}' is neither .png nor .exr; name the output file so", file.string());
-    const auto device = open_device(options.common);
     shadow::SceneGpu scene(*device, stage.scene);
     lab::RenderSettings settings{.samples = options.samples,
         .repeats = options.repeats,
@@ -88,8 +90,9 @@ int render(const Render& options)
     const lab::Rendered rendered = lab::render(*device, scene, stage, choice, settings);
     demand_valid(*device);
 
-    nlohmann::ordered_json json = {{"files", nlohmann::ordered_json::array()}, {"passes", nlohmann::ordered_json::array()},
-        {"technique_ms", rendered.technique_ms}, {"bytes", rendered.technique_bytes}, {"warnings", stage.scene.warnings}};
+    nlohmann::ordered_json json
+        = {{"technique", lab::choice_text(choice)}, {"files", nlohmann::ordered_json::array()}, {"passes", nlohmann::ordered_json::array()},
+            {"technique_ms", rendered.technique_ms}, {"bytes", rendered.technique_bytes}, {"warnings", stage.scene.warnings}};
     write_picture(file, rendered.radiance, lab::display(rendered.radiance, stage, options.exposure), base::Encoding::srgb);
     json["files"].push_back(file.string());
     for (const auto& [name, picture] : rendered.aovs) {

@@ -22,6 +22,9 @@ enum class Encoding {
 /// The longest side of a picture that is read or written; it bounds the memory that a hostile header can ask for.
 inline constexpr int longest_side = 16384;
 
+/// The values as 8-bit ones, clamped to [0, 1]; NaN becomes 0. A fourth channel is alpha, which is never converted.
+std::vector<uint8_t> encode8(const Picture&, Encoding);
+
 /// Writes 1, 3 or 4 channels as an 8-bit PNG; values are clamped to [0, 1]; NaN becomes 0. Whole or not at all. Throws Error.
 void write_png(const std::filesystem::path&, const Picture&, Encoding);
 

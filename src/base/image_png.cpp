@@ -75,14 +75,9 @@ Encoded inspect(std::span<const std::byte> file, std::string_view name)
 
 } // namespace
 
-void write_png(const std::filesystem::path& path, const Picture& picture, Encoding encoding)
+std::vector<uint8_t> encode8(const Picture& picture, Encoding encoding)
 {
-    const auto [width, height] = picture.size;
     const int channels = picture.channels;
-    if (width <= 0 || height <= 0 || width > longest_side || height > longest_side || (channels != 1 && channels != 3 && channels != 4)
-        || picture.values.size() != picture.size.area() * size_t(channels))
-        fail("cannot write '{}': a PNG needs 1, 3 or 4 channels and 1 to {} pixels a side, not {} channels and {}x{}", path.string(),
-            longest_side, channels, width, height);
     // Neighbours are often equal (visibility, background), which saves the power function.
     std::vector<uint8_t> bytes(picture.values.size());
     for (int c = 0; c < channels; ++c) {
@@ -94,6 +89,18 @@ void write_png(const std::filesystem::path& path, const Picture& picture, Encodi
             bytes[i] = code;
         }
     }
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Picture& picture, Encoding encoding)
+{
+    const auto [width, height] = picture.size;
+    const int channels = picture.channels;
+    if (width <= 0 || height <= 0 || width > longest_side || height > longest_side || (channels != 1 && channels != 3 && channels != 4)
+        || picture.values.size() != picture.size.area() * size_t(channels))
+        fail("cannot write '{}': a PNG needs 1, 3 or 4 channels and 1 to {} pixels a side, not {} channels and {}x{}", path.string(),
+            longest_side, channels, width, height);
+    std::vector<uint8_t> bytes = encode8(picture, encoding);
     std::vector<std::byte> file;
     const auto append = [](void* out, void* data, int size) {
         const auto* begin = static_cast<const std::byte*>(data);

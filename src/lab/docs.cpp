@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "lab/gallery.h"
+#include "lab/quality.h"
 
 #include <nlohmann/json.hpp>
 
@@ -108,6 +109,14 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
     update(root / "techniques" / "README.md", {{"techniques", overview_table()}});
     for (const fs::path& file : update_thumbnails(root, check)) changed.push_back(file);
     for (const fs::path& file : update_result_pages(root, check)) changed.push_back(file);
+    if (const fs::path file = root / "presets" / "quality.json"; fs::exists(file)) {
+        const std::string priced = priced_qualities(root);
+        if (priced != base::read_text(file)) {
+            changed.push_back(file);
+            if (!check) base::write_text(file, priced);
+        }
+        update(root / "docs" / "quality.md", {{"qualities", qualities_page(shadow::parse_qualities(priced))}});
+    }
     update(root / "README.md", {{"pictures", picture_grid(root)}});
     update(root / "docs" / "gallery.md", {{"gallery", gallery(root)}});
     return changed;

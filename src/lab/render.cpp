@@ -70,6 +70,7 @@ public:
 
     gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs, std::vector<Counter>* counters = nullptr)
     {
+        if (settings_.stop.stop_requested()) base::fail("rendering was stopped before its last frame; nothing of it is kept");
         const scene::View view = this->view(jitter);
         gpu::PassList passes(device_);
         const GBuffer g = draw_gbuffer(

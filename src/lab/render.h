@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct RenderSettings {
     bool lit = true; ///< shade; otherwise only the techniques' images are made
     std::set<std::string> aovs; ///< aov_names()
     shadow::LightingSettings lighting;
+    std::stop_token stop{}; ///< where it is asked for, `render` ends after the frame in hand, with base::Error
 };
 const std::vector<std::string>& aov_names(); ///< visibility, depth, normal, geometric_normal, albedo, surface, primitive, position, motion,
                                              ///< and texel_footprint, texel_footprint_perspective, texel_footprint_projection

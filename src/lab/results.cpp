@@ -34,6 +34,7 @@ nlohmann::ordered_json run_json(const Run& run)
         out["passes"].push_back({{"name", pass.name}, {"ms", pass.ms}, {"deviation", pass.deviation}, {"count", pass.count}});
     out["technique_ms"] = run.technique_ms;
     out["technique_deviation"] = run.technique_deviation;
+    out["technique_least_ms"] = run.technique_least_ms;
     out["bytes"] = run.bytes;
     if (!run.counts.empty()) out["counts"] = run.counts;
     out["metrics"] = run.metrics;

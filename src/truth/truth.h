@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 
 // Ray-traced reference by Embree. Knows no Vulkan.
 namespace gnomon::truth {
@@ -26,6 +27,7 @@ struct Settings {
     int samples = 256; ///< light samples a pixel, rounded up to a square; 1 is used for lights without area
     uint64_t seed = 1;
     int threads = 0; ///< 0 = all
+    std::stop_token stop{}; ///< where it is asked for, light samples end soon, with base::Error
 };
 
 /// Fraction of the light that reaches each visible point. Background pixels are 1.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/error.h"
 #include "base/progress.h"
 #include "truth/rays.h"
 #include "truth/sampling.h"
@@ -156,6 +157,7 @@ Visibility run(const Geometry& geometry, const scene::View& view, const Primary&
         Packet packet;
         for (int y = y0; y < y1; y += light.soft() ? 1 : packet_height)
             for (int x = x0; x < x1; x += light.soft() ? 1 : packet_width) {
+                if (settings.stop.stop_requested()) base::fail("tracing light samples was stopped; nothing of it is kept");
                 if (light.soft())
                     job.soft(receivers, pixel, x, y);
                 else
