@@ -122,7 +122,9 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
     if (recording_)
         throw std::logic_error(
             fmt::format("{} was asked for while a pass list is being recorded; do it before the list is submitted", about));
+    if (lost_) base::fail("the device was lost before {}; start again, with a new device", about);
     check(vk.vkResetCommandPool(handle, command_pool, 0), "vkResetCommandPool", about);
+    check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
     const VkCommandBufferBeginInfo begin{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     check(vk.vkBeginCommandBuffer(command_buffer, &begin), "vkBeginCommandBuffer", about);
@@ -151,9 +153,14 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check(vk.vkQueueSubmit2(queue, 1, &submit, fence), "vkQueueSubmit2", about);
-    check(vk.vkWaitForFences(handle, 1, &fence, VK_TRUE, ~uint64_t(0)), "vkWaitForFences", about);
-    check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
+    VkResult result = vk.vkQueueSubmit2(queue, 1, &submit, fence);
+    lost_ = result == VK_ERROR_DEVICE_LOST;
+    check(result, "vkQueueSubmit2", about);
+    result = vk.vkWaitForFences(handle, 1, &fence, VK_TRUE, ~uint64_t(0));
+    // Out of memory: the commands run all the same, and what they use may not be touched before they are through.
+    if (result < 0 && result != VK_ERROR_DEVICE_LOST) result = vk.vkQueueWaitIdle(queue);
+    lost_ = result < 0;
+    check(result, "vkWaitForFences", about);
 }
 
 void Context::release(std::function<void()> free)

@@ -62,7 +62,8 @@ struct Context {
     Context& operator=(const Context&) = delete;
     void start(const std::set<std::string, std::less<>>& enabled); ///< after the device and its functions are there
 
-    /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device.
+    /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device. Where it throws, the device has
+    /// done none of it, or is lost: `record` leaves states of images and buffers alone, and callers set them afterwards.
     void run(std::string_view about, const std::function<void(VkCommandBuffer)>&);
     /// Runs now where nothing recorded for a caller is in flight, else once every open ticket has been retired.
     void release(std::function<void()>);
@@ -118,6 +119,7 @@ private:
         std::function<void()> free;
     };
     std::vector<Garbage> garbage_;
+    bool lost_ = false; ///< nothing can be submitted any more
     bool recording_ = false; ///< a draw function that uploads would end the list's own command buffer
 };
 
