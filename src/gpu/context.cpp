@@ -38,11 +38,13 @@ void Context::start(const std::set<std::string, std::less<>>& enabled)
 {
     extensions = enabled;
     VkPhysicalDeviceIDProperties id{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
-    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &id};
+    VkPhysicalDeviceMaintenance4Properties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, &id};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &sizes};
     if (info.ray_tracing_pipeline) ray.pNext = id.pNext, id.pNext = &ray;
     if (info.ray_tracing_pipeline || info.ray_query) accel.pNext = id.pNext, id.pNext = &accel;
     vk.vkGetPhysicalDeviceProperties2(physical, &all);
     properties = all.properties;
+    largest_buffer = sizes.maxBufferSize;
     std::copy(std::begin(id.deviceUUID), std::end(id.deviceUUID), device_uuid.begin());
     memory = std::make_unique<MemoryPool>(vk, handle, vk, physical);
 

@@ -90,6 +90,7 @@ struct Context {
     VkPhysicalDeviceProperties properties{};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR ray{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
     VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    uint64_t largest_buffer = 0;
     std::array<uint8_t, VK_UUID_SIZE> device_uuid{};
     std::set<std::string, std::less<>> extensions;
     bool anisotropy = false;

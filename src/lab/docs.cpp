@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/docs_reliability.h"
 #include "lab/folder.h"
 
 #include "base/error.h"
@@ -110,6 +111,7 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
     for (const fs::path& file : update_result_pages(root, check)) changed.push_back(file);
     update(root / "README.md", {{"pictures", picture_grid(root)}});
     update(root / "docs" / "gallery.md", {{"gallery", gallery(root)}});
+    if (const fs::path page = root / "docs" / "reliability.md"; fs::exists(page)) update(page, {{"reliability", reliability_tables(root)}});
     return changed;
 }
 
