@@ -30,7 +30,7 @@ PYBIND11_MODULE(_gnomon, m)
     m.doc() = "What gnomon/__init__.py is built on.";
     py::register_exception<base::Error>(m, "Error", PyExc_RuntimeError).attr("__doc__")
         = "What cannot be done, in a sentence that names the thing, the place and the next step.";
-    m.attr("__version__") = GNOMON_VERSION;
+    m.attr("__version__") = GNOMON_VERSION_TEXT;
     m.def("techniques", &techniques);
     m.def("scenes", [] { return lab::scenes_json().dump(); });
     m.def("qualities", [] { return lab::qualities_json().dump(); });

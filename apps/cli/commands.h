@@ -39,7 +39,7 @@ struct Render {
     std::string technique = "shadow_map", output;
     std::string quality; ///< shadow::parse_level: in the place of `technique`; empty = that
     std::vector<std::string> parameters, aovs; ///< name=value; aov names
-    int samples = 1, frame = 0, repeats = 1;
+    int samples = 1, frame = 0, repeats = 1, tile = 4096;
     float exposure = 0, ambient = 0.45f; ///< stops; relative
 };
 int render(const Render&);

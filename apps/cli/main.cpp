@@ -118,6 +118,9 @@ int run(int argc, char** argv)
     render_app->add_option("--repeats", render.repeats, "Timed repetitions after a warm-up")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    render_app->add_option("--tile", render.tile, "Draw larger pictures in parts of at most so many pixels a side")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
     cli::add_look(*render_app, render.exposure, render.ambient);
     render_app->allow_extras();
     cli::add_common(*render_app, render.common);

@@ -85,6 +85,7 @@ int render(const Render& options)
         .repeats = options.repeats,
         .frame_index = uint32_t(options.frame),
         .count = true,
+        .tile = options.tile,
         .aovs = {options.aovs.begin(), options.aovs.end()}};
     settings.lighting.ambient = options.ambient;
     const lab::Rendered rendered = lab::render(*device, scene, stage, choice, settings);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "scene/animation.h"
+#include "scene/rebase.h"
 
 #include <fmt/format.h>
 
@@ -68,16 +69,16 @@ void Session::load(const lab::StageOptions& options, bool same_file)
     const lab::Stage& stage = loaded->stage;
     for (size_t i = 0; i < stage.lights.size(); ++i)
         origins.push_back(i < options.lights.size() ? light_origin(options.lights[i], stage.scene.lights)
-                                                    : light_origin(stage.lights[i], stage.scene.lights, stage.bounds));
+                                                    : light_origin(stage.lights[i], stage.scene.lights, stage.bounds, stage.origin));
     std::vector<std::string> lights;
-    for (size_t i = 0; i < stage.lights.size(); ++i) lights.push_back(light_text(stage.lights[i], origins[i]));
+    for (size_t i = 0; i < stage.lights.size(); ++i) lights.push_back(light_text(stage.lights[i], origins[i], stage.origin));
     const double duration = same_file ? duration_ : scene::animation_seconds(options.scene);
     // Nothing has thrown: the new scene takes the old one's place.
     truth_.reset(), truth_key_.clear();
     loaded_ = std::move(loaded);
     options_ = options, duration_ = duration;
     origins_ = std::move(origins), lights_ = std::move(lights);
-    camera_ = camera_text(loaded_->stage.camera);
+    camera_ = camera_text(loaded_->stage.camera, loaded_->stage.origin);
     if (!loaded_->stage.scene.warnings.empty()) message = {loaded_->stage.scene.warnings.front(), false};
     for (size_t i = 0; i < lights_.size(); ++i) light(i, lights_[i]);
     camera(camera_);
@@ -118,25 +119,28 @@ void Session::compare_with(Against what, const std::string& id)
 void Session::camera(const std::string& text)
 {
     lab::Stage& stage = loaded_->stage;
-    const scene::Camera parsed = scene::parse_camera(text, stage.scene.cameras, stage.bounds);
+    const scene::Camera parsed = scene::parse_camera(text, stage.scene.cameras, stage.bounds, stage.origin);
     scene::make_view(parsed, size_, stage.bounds); // throws where it is none
     stage.camera = parsed;
-    camera_ = camera_text(parsed);
+    camera_ = camera_text(parsed, stage.origin);
 }
 
-void Session::camera(const scene::Camera& wanted) { camera(camera_text(wanted)); }
+void Session::camera(const scene::Camera& wanted) { camera(camera_text(wanted, loaded_->stage.origin)); }
 
 void Session::light(size_t index, const std::string& text)
 {
     lab::Stage& stage = loaded_->stage;
-    const scene::Light parsed = scene::parse_light(text, stage.scene.lights, stage.bounds);
+    const scene::Light parsed = scene::parse_light(text, stage.scene.lights, stage.bounds, stage.origin);
     const LightOrigin origin = light_origin(text, stage.scene.lights);
-    const std::string words = light_text(parsed, origin);
-    stage.lights.at(index) = scene::parse_light(words, stage.scene.lights, stage.bounds);
+    const std::string words = light_text(parsed, origin, stage.origin);
+    stage.lights.at(index) = scene::parse_light(words, stage.scene.lights, stage.bounds, stage.origin);
     lights_.at(index) = words, origins_.at(index) = origin;
 }
 
-void Session::light(size_t index, const scene::Light& wanted) { light(index, light_text(wanted, origins_.at(index))); }
+void Session::light(size_t index, const scene::Light& wanted)
+{
+    light(index, light_text(wanted, origins_.at(index), loaded_->stage.origin));
+}
 
 void Session::size(base::Size wanted)
 {

@@ -2,6 +2,7 @@
 #include "text.h"
 
 #include "scene/option_text.h"
+#include "scene/rebase.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,14 @@ namespace gnomon::view {
 namespace {
 
 std::string text_of(vec3 v) { return fmt::format("{}/{}/{}", v.x, v.y, v.z); }
+
+/// A point that is counted from `origin`. In doubles the sum is exact, so that reading it back gives the same floats.
+std::string text_of(vec3 p, vec3 origin)
+{
+    if (origin == vec3(0)) return text_of(p);
+    const glm::dvec3 at = glm::dvec3(p) + glm::dvec3(origin);
+    return fmt::format("{}/{}/{}", at.x, at.y, at.z);
+}
 
 /// The shortest number of degrees that is read back as these radians, times `part` (0.5 where the text states a full angle and the light
 /// keeps half of it).
@@ -34,25 +43,26 @@ struct ShapeText {
     }
     std::string operator()(const scene::SpotLight& l) const
     {
-        return fmt::format(",position={},target={},cone={},inner={},radius={}", text_of(l.position), text_of(l.position + l.direction),
-            degrees_text(l.outer_angle, 0.5f), degrees_text(l.inner_angle, 0.5f), l.radius);
+        return fmt::format(",position={},target={},cone={},inner={},radius={}", text_of(l.position, origin),
+            text_of(l.position + l.direction, origin), degrees_text(l.outer_angle, 0.5f), degrees_text(l.inner_angle, 0.5f), l.radius);
     }
     std::string operator()(const scene::PointLight& l) const
     {
-        return fmt::format(",position={},radius={}", text_of(l.position), l.radius);
+        return fmt::format(",position={},radius={}", text_of(l.position, origin), l.radius);
     }
     std::string operator()(const scene::RectLight& l) const
     {
         const std::string sizes = fmt::format(",width={},height={}", 2.0f * glm::length(l.half_u), 2.0f * glm::length(l.half_v));
-        const std::string position = ",position=" + text_of(l.centre);
+        const std::string position = ",position=" + text_of(l.centre, origin);
         if (known) return position + sizes;
-        return position + ",target=" + text_of(l.centre + glm::normalize(glm::cross(l.half_u, l.half_v))) + sizes;
+        return position + ",target=" + text_of(l.centre + glm::normalize(glm::cross(l.half_u, l.half_v)), origin) + sizes;
     }
     std::string operator()(const scene::DiskLight& l) const
     {
-        return fmt::format(",position={},target={},radius={}", text_of(l.centre), text_of(l.centre + l.normal), l.radius);
+        return fmt::format(",position={},target={},radius={}", text_of(l.centre, origin), text_of(l.centre + l.normal, origin), l.radius);
     }
     bool known;
+    vec3 origin;
 };
 
 bool has_light(const std::vector<scene::Light>& known, const std::string& name)
@@ -62,9 +72,9 @@ bool has_light(const std::vector<scene::Light>& known, const std::string& name)
 
 } // namespace
 
-std::string camera_text(const scene::Camera& camera)
+std::string camera_text(const scene::Camera& camera, vec3 origin)
 {
-    std::string text = fmt::format("eye={},target={}", text_of(camera.eye), text_of(camera.target));
+    std::string text = fmt::format("eye={},target={}", text_of(camera.eye, origin), text_of(camera.target, origin));
     if (camera.up != vec3(0, 1, 0)) text += ",up=" + text_of(camera.up);
     if (camera.half_height > 0.0f)
         text += fmt::format(",ortho={}", camera.half_height);
@@ -88,24 +98,24 @@ LightOrigin light_origin(const std::string& option, const std::vector<scene::Lig
     return origin;
 }
 
-LightOrigin light_origin(const scene::Light& light, const std::vector<scene::Light>& known, const Bounds& bounds)
+LightOrigin light_origin(const scene::Light& light, const std::vector<scene::Light>& known, const Bounds& bounds, vec3 origin)
 {
     const LightOrigin by_kind{std::string(scene::kind_name(light.kind())), {}, false};
     if (!has_light(known, light.name) || light.name.find('=') != std::string::npos) return by_kind;
     try {
         // Of two lights of one name the first is found.
-        const scene::Light read = scene::parse_light(light.name, known, bounds);
+        const scene::Light read = scene::parse_light(light.name, known, bounds, origin);
         if (read.kind() == light.kind()) return {light.name, {}, true, read.color};
     } catch (const std::exception&) {
     }
     return by_kind;
 }
 
-std::string light_text(const scene::Light& light, const LightOrigin& origin)
+std::string light_text(const scene::Light& light, const LightOrigin& from, vec3 origin)
 {
-    std::string text = origin.base + std::visit(ShapeText{origin.known}, light.shape);
-    if (!origin.image.empty()) text += ",image=" + origin.image;
-    if (light.color != origin.color) text += ",color=" + text_of(light.color);
+    std::string text = from.base + std::visit(ShapeText{from.known, origin}, light.shape);
+    if (!from.image.empty()) text += ",image=" + from.image;
+    if (light.color != from.color) text += ",color=" + text_of(light.color);
     if (light.intensity) text += fmt::format(",intensity={}", *light.intensity);
     return text;
 }

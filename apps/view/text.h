@@ -11,8 +11,8 @@
 // copied command line gives the very same bits.
 namespace gnomon::view {
 
-/// What scene::parse_camera reads: eye=..,target=..,fov=..
-std::string camera_text(const scene::Camera&);
+/// What scene::parse_camera reads: eye=..,target=..,fov=.. Cameras and lights are counted from `origin` (scene/rebase.h), texts are not.
+std::string camera_text(const scene::Camera&, vec3 origin = vec3(0));
 
 /// Where a light began: a kind, or a light of the scene by its name, which then keeps what no key can say (how a rectangle is turned).
 struct LightOrigin {
@@ -23,10 +23,10 @@ struct LightOrigin {
 };
 LightOrigin light_origin(const std::string& option, const std::vector<scene::Light>& known);
 /// Of a light that was chosen for want of an option.
-LightOrigin light_origin(const scene::Light&, const std::vector<scene::Light>& known, const Bounds&);
+LightOrigin light_origin(const scene::Light&, const std::vector<scene::Light>& known, const Bounds&, vec3 origin = vec3(0));
 
 /// What scene::parse_light reads.
-std::string light_text(const scene::Light&, const LightOrigin&);
+std::string light_text(const scene::Light&, const LightOrigin&, vec3 origin = vec3(0));
 
 /// Quoted for a POSIX shell where it has to be.
 std::string shell_word(const std::string&);

@@ -69,6 +69,24 @@ int open_temporary(const fs::path& folder, fs::path& name)
     }
 }
 
+/// A file without a name, which is gone with the process however that ends. -1 where the file system has none.
+int open_unnamed(const fs::path& folder)
+{
+    if (::access("/proc/self/fd", X_OK) != 0) return -1; // by which it is named
+    return ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+/// 0 or the error.
+int give_name(int fd, const fs::path& folder, fs::path& name)
+{
+    const std::string self = fmt::format("/proc/self/fd/{}", fd);
+    for (int attempt = 0;; ++attempt) {
+        name = folder / fmt::format(".gnomon-{}-{}.tmp", ::getpid(), attempt);
+        if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return 0;
+        if (errno != EEXIST || attempt == 9999) return errno;
+    }
+}
+
 void write_directly(const fs::path& path, std::span<const std::byte> data)
 {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -122,16 +140,18 @@ void write_file(const fs::path& path, std::span<const std::byte> data)
     if (error) fail("cannot make the folder '{}': {}", folder.string(), error.message());
 
     fs::path temporary;
-    Descriptor file(open_temporary(folder, temporary));
+    const int unnamed = open_unnamed(folder);
+    Descriptor file(unnamed >= 0 ? unnamed : open_temporary(folder, temporary));
     if (file.get() < 0) fail("cannot write '{}': {}; choose a folder that can be written", path.string(), cause(errno));
     int result = write_all(file.get(), data);
     // Without fsync a crash after the rename can leave an empty file under the final name (ext4 delayed allocation).
     if (!result && ::fsync(file.get()) != 0 && errno != EINVAL) result = errno;
+    if (!result && unnamed >= 0) result = give_name(unnamed, folder, temporary);
     const int closed = file.close();
     if (!result) result = closed;
     if (!result && ::rename(temporary.c_str(), target.c_str()) != 0) result = errno;
     if (result) {
-        ::unlink(temporary.c_str());
+        if (!temporary.empty()) ::unlink(temporary.c_str());
         fail("cannot write '{}': {}", path.string(), cause(result));
     }
 }

@@ -5,7 +5,7 @@
 
 namespace gnomon::base {
 
-/// An empty folder of its own, which is gone with all that it holds when this is.
+/// An empty folder of its own, which is gone with all that it holds when this is, or when the process has ended, however it did.
 class TemporaryFolder {
 public:
     TemporaryFolder(); ///< Throws base::Error where none can be made.
@@ -16,6 +16,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    int guard_ = -1, pipe_ = -1; ///< a child, and the end of a pipe whose other end it watches
 };
 
 } // namespace gnomon::base

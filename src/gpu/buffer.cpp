@@ -37,6 +37,11 @@ Buffer Device::buffer(const BufferDesc& desc)
         | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     if (c.info.ray_query || c.info.ray_tracing_pipeline) info.usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 
+    if (desc.bytes > c.largest_buffer)
+        base::fail(
+            "buffer '{}' needs {:.1f} MiB, more than the {:.1f} MiB that device '{}' takes (maxBufferSize); choose a smaller --size, "
+            "map or scene",
+            desc.name, double(desc.bytes) / 1048576.0, double(c.largest_buffer) / 1048576.0, c.info.name);
     Buffer buffer;
     buffer.impl_ = std::make_unique<Buffer::Impl>();
     Buffer::Impl& b = *buffer.impl_;

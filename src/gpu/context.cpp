@@ -40,11 +40,13 @@ void Context::start(const std::set<std::string, std::less<>>& enabled)
 {
     extensions = enabled;
     VkPhysicalDeviceIDProperties id{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
-    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &id};
+    VkPhysicalDeviceMaintenance4Properties sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, &id};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &sizes};
     if (info.ray_tracing_pipeline) ray.pNext = id.pNext, id.pNext = &ray;
     if (info.ray_tracing_pipeline || info.ray_query) accel.pNext = id.pNext, id.pNext = &accel;
     vk.vkGetPhysicalDeviceProperties2(physical, &all);
     properties = all.properties;
+    largest_buffer = sizes.maxBufferSize;
     std::copy(std::begin(id.deviceUUID), std::end(id.deviceUUID), device_uuid.begin());
     memory = std::make_unique<MemoryPool>(vk, handle, vk, physical);
 
@@ -143,7 +145,9 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
         defer(about, record);
         return;
     }
+    if (lost_) base::fail("the device was lost before {}; start again, with a new device", about);
     check(vk.vkResetCommandPool(handle, command_pool, 0), "vkResetCommandPool", about);
+    check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
     const VkCommandBufferBeginInfo begin{
         VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
     check(vk.vkBeginCommandBuffer(command_buffer, &begin), "vkBeginCommandBuffer", about);
@@ -163,9 +167,14 @@ void Context::run(std::string_view about, const std::function<void(VkCommandBuff
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check(vk.vkQueueSubmit2(queue, 1, &submit, fence), "vkQueueSubmit2", about);
-    check(vk.vkWaitForFences(handle, 1, &fence, VK_TRUE, ~uint64_t(0)), "vkWaitForFences", about);
-    check(vk.vkResetFences(handle, 1, &fence), "vkResetFences", about);
+    VkResult result = vk.vkQueueSubmit2(queue, 1, &submit, fence);
+    lost_ = result == VK_ERROR_DEVICE_LOST;
+    check(result, "vkQueueSubmit2", about);
+    result = vk.vkWaitForFences(handle, 1, &fence, VK_TRUE, ~uint64_t(0));
+    // Out of memory: the commands run all the same, and what they use may not be touched before they are through.
+    if (result < 0 && result != VK_ERROR_DEVICE_LOST) result = vk.vkQueueWaitIdle(queue);
+    lost_ = result < 0;
+    check(result, "vkWaitForFences", about);
 }
 
 VkCommandBuffer Context::begin_secondary(std::string_view about)
@@ -186,12 +195,15 @@ VkCommandBuffer Context::begin_secondary(std::string_view about)
 void Context::defer(std::string_view about, const std::function<void(VkCommandBuffer)>& record)
 {
     const VkCommandBuffer commands = begin_secondary(about);
-    deferred_.push_back(commands);
-    {
+    try {
         const Recording guard(recording_);
         record(commands);
+        check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer", about);
+    } catch (...) {
+        vk.vkFreeCommandBuffers(handle, secondary_pool, 1, &commands);
+        throw;
     }
-    check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer", about);
+    deferred_.push_back(commands);
 }
 
 void Context::execute(VkCommandBuffer commands, Submission& submission)

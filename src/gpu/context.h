@@ -63,7 +63,8 @@ struct Context {
     Context& operator=(const Context&) = delete;
     void start(const std::set<std::string, std::less<>>& enabled); ///< after the device and its functions are there
 
-    /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device.
+    /// Records into the one command buffer, submits and waits. `about` names the work, for a lost device. Where it throws, the device has
+    /// done none of it, or is lost: `record` leaves states of images and buffers alone, and callers set them afterwards.
     /// Without a queue: records for the head of the next list.
     void run(std::string_view about, const std::function<void(VkCommandBuffer)>&);
     VkCommandBuffer begin_secondary(std::string_view about);
@@ -94,6 +95,7 @@ struct Context {
     VkPhysicalDeviceProperties properties{};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR ray{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
     VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    uint64_t largest_buffer = 0;
     std::array<uint8_t, VK_UUID_SIZE> device_uuid{};
     std::set<std::string, std::less<>> extensions;
     bool anisotropy = false;
@@ -127,6 +129,7 @@ private:
     };
     std::vector<Garbage> garbage_;
     std::vector<VkCommandBuffer> deferred_; ///< secondary ones, for the head of the next recorded list
+    bool lost_ = false; ///< nothing can be submitted any more
     bool recording_ = false; ///< a draw function that uploads would end the list's own command buffer
 };
 

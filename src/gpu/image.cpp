@@ -30,9 +30,14 @@ void refuse(const Context& c, const ImageDesc& d, const VkImageFormatProperties&
     if (d.size.width < 1 || d.size.height < 1 || d.layers < 1 || d.mips < 1)
         throw std::logic_error(fmt::format("image '{}' has a size, layer or mip count below 1", d.name));
     if (uint32_t(d.size.width) > most.maxExtent.width || uint32_t(d.size.height) > most.maxExtent.height)
-        too_much(fmt::format("at most {} x {}", most.maxExtent.width, most.maxExtent.height));
-    if (d.layers > most.maxArrayLayers) too_much(fmt::format("at most {} layers", most.maxArrayLayers));
+        too_much(fmt::format("at most {} x {} (maxImageDimension2D)", most.maxExtent.width, most.maxExtent.height));
+    if (d.layers > most.maxArrayLayers) too_much(fmt::format("at most {} layers (maxImageArrayLayers)", most.maxArrayLayers));
     if (d.mips > most.maxMipLevels) too_much(fmt::format("at most {} mips", most.maxMipLevels));
+    // Mips add a third; a driver's own alignment is its affair.
+    const double bytes = double(d.size.area()) * d.layers * int(d.samples) * double(texel_bytes(d.format)) * (d.mips > 1 ? 4.0 / 3.0 : 1.0);
+    if (bytes > double(most.maxResourceSize))
+        too_much(fmt::format(
+            "{:.1f} MiB, at most {:.1f} MiB for an image (maxResourceSize)", bytes / 1048576.0, double(most.maxResourceSize) / 1048576.0));
     if (!(most.sampleCounts & d.samples)) too_much(fmt::format("sample counts are the bits of {}", most.sampleCounts));
 }
 

@@ -114,8 +114,12 @@ void MemoryPool::out_of_memory(const MemoryRequest& request, uint64_t heap) cons
 MemoryBlock& MemoryPool::add_block(uint32_t type, uint64_t size, bool own, const MemoryRequest& request)
 {
     const uint64_t heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    if (request.needs.size > largest_)
+        base::fail("{} needs {:.1f} MiB, more than the {:.1f} MiB that the device gives in one piece (maxMemoryAllocationSize); choose a "
+                   "smaller --size, map or scene",
+            request.name, mebibytes(request.needs.size), mebibytes(largest_));
     // A software driver maps more than there is and dies later: the heap's size is the limit.
-    if (request.needs.size > largest_ || used_ + request.needs.size > heap) out_of_memory(request, heap);
+    if (used_ + request.needs.size > heap) out_of_memory(request, heap);
     VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, nullptr, request.image, request.buffer};
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, own ? &dedicated : nullptr};
     flags.flags = request.linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;

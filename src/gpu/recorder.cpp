@@ -31,6 +31,17 @@ const Constants* constants_of(const Pass& pass)
     return nullptr;
 }
 
+/// Shaders get whole buffers; on lavapipe they reach the first 128 MiB of one.
+void check_range(const Context& c, const BufferDesc& desc)
+{
+    const uint64_t most = c.properties.limits.maxStorageBufferRange;
+    if (desc.bytes > most)
+        base::fail(
+            "buffer '{}' has {:.1f} MiB, and shaders of device '{}' reach {:.1f} MiB of one (maxStorageBufferRange); choose a smaller "
+            "scene or --size, or a technique that does not read it",
+            desc.name, double(desc.bytes) / 1048576.0, c.info.name, double(most) / 1048576.0);
+}
+
 uint64_t aligned(uint64_t bytes, uint64_t alignment) { return (bytes + alignment - 1) / alignment * alignment; }
 
 } // namespace
@@ -227,6 +238,7 @@ void Recorder::write_set(const ProgramImpl& program, VkDescriptorSet set)
             write.pImageInfo = &images[i];
         } else {
             const Buffer& source = buffer(b.buffer);
+            if (declared.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) check_range(c_, source.desc());
             buffers[i] = {source.handle(), source.offset(), source.range()};
             write.pBufferInfo = &buffers[i];
         }

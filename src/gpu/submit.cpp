@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/recorder.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace gnomon::gpu {
@@ -80,11 +81,12 @@ Submitted Device::submit(PassList&& list)
     c.transients.age();
     const VkQueryPool timestamps = timestamps_for(c, uint32_t(l.passes.size() + 1));
     Held held{c};
+    std::optional<Recorder> recorder;
     c.run(names_of(l.passes), [&](VkCommandBuffer commands) {
-        Recorder recorder(c, l, held.submission, commands);
-        recorder.record(timestamps);
-        recorder.commit();
+        recorder.emplace(c, l, held.submission, commands);
+        recorder->record(timestamps);
     });
+    recorder->commit();
     result.times = read_times(c, l.passes);
     count_bytes(l, held.submission, result);
     return result;

@@ -34,11 +34,16 @@ void require_queue(const Context& c)
     if (!c.queue) throw std::logic_error("read_back: this device has no queue; copy into a buffer of your own");
 }
 
-void copy_buffer(Context& c, VkCommandBuffer commands, VkBuffer from, Buffer& to, uint64_t offset, uint64_t bytes)
+/// `changed`, one of the two, is in device memory; its state follows only once the commands are through.
+void copy_buffer(Context& c, const std::string& about, const Buffer& from, const Buffer& to, const VkBufferCopy& region, const Buffer& changed)
 {
-    c.barrier(commands, to, transition(to.state(), access_of(Use::copy_to, PassKind::transfer, false)));
-    const VkBufferCopy region{0, offset, bytes};
-    c.vk.vkCmdCopyBuffer(commands, from, to.handle(), 1, &region);
+    const Use use = &changed == &to ? Use::copy_to : Use::copy_from;
+    BufferState state = changed.state();
+    c.run(about, [&](VkCommandBuffer commands) {
+        c.barrier(commands, changed, transition(state, access_of(use, PassKind::transfer, false)));
+        c.vk.vkCmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
+    });
+    changed.state() = state;
 }
 
 } // namespace
@@ -54,13 +59,15 @@ void Device::upload(Image& image, std::span<const std::byte> texels, uint32_t la
     std::memcpy(staging.mapped(), texels.data(), bytes);
     const VkBufferImageCopy region = copy_of(image.desc(), layer, mip);
     const Range range{layer, 1, mip, 1};
+    ImageState state = image.state();
     c.run("an upload to image '" + image.desc().name + "'", [&](VkCommandBuffer commands) {
-        c.barrier(commands, image, transition(image.state(), range, access_of(Use::copy_to, PassKind::transfer, false)));
+        c.barrier(commands, image, transition(state, range, access_of(Use::copy_to, PassKind::transfer, false)));
         c.vk.vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         Access rest = at_rest();
         if (is_depth(image.desc().format)) rest.layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-        c.barrier(commands, image, transition(image.state(), range, rest));
+        c.barrier(commands, image, transition(state, range, rest));
     });
+    image.state() = std::move(state);
 }
 
 void Device::upload(Buffer& to, std::span<const std::byte> bytes, uint64_t offset)
@@ -80,8 +87,7 @@ void Device::upload(Buffer& to, std::span<const std::byte> bytes, uint64_t offse
         const uint64_t size = std::min<uint64_t>(chunk, bytes.size() - done);
         const Buffer staging = buffer({size, 0, Memory::upload, "staging for " + to.desc().name});
         std::memcpy(staging.mapped(), bytes.data() + done, size);
-        c.run("an upload to buffer '" + to.desc().name + "'",
-            [&](VkCommandBuffer commands) { copy_buffer(c, commands, staging.handle(), to, offset + done, size); });
+        copy_buffer(c, "an upload to buffer '" + to.desc().name + "'", staging, to, {0, offset + done, size}, to);
     }
 }
 
@@ -95,10 +101,11 @@ void Device::generate_mips(Image& image)
         throw std::logic_error(
             fmt::format("generate_mips: {} has no linear blit (image '{}'); fill the mips by passes", format_info(d.format).name, d.name));
     const Access from = access_of(Use::copy_from, PassKind::transfer, false), to = access_of(Use::copy_to, PassKind::transfer, false);
+    ImageState state = image.state();
     c.run("the mips of image '" + d.name + "'", [&](VkCommandBuffer commands) {
         for (uint32_t mip = 1; mip < d.mips; ++mip) {
-            c.barrier(commands, image, transition(image.state(), {0, d.layers, mip - 1, 1}, from));
-            c.barrier(commands, image, transition(image.state(), {0, d.layers, mip, 1}, to));
+            c.barrier(commands, image, transition(state, {0, d.layers, mip - 1, 1}, from));
+            c.barrier(commands, image, transition(state, {0, d.layers, mip, 1}, to));
             const Size big = mip_size(d.size, mip - 1), small = mip_size(d.size, mip);
             VkImageBlit blit{};
             blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, d.layers};
@@ -108,8 +115,9 @@ void Device::generate_mips(Image& image)
             c.vk.vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
         }
-        c.barrier(commands, image, transition(image.state(), whole(image.state()), at_rest()));
+        c.barrier(commands, image, transition(state, whole(state), at_rest()));
     });
+    image.state() = std::move(state);
 }
 
 std::vector<std::byte> Device::read_back_bytes(Image& image, uint32_t layer, uint32_t mip)
@@ -121,16 +129,18 @@ std::vector<std::byte> Device::read_back_bytes(Image& image, uint32_t layer, uin
     require_queue(c);
     const Buffer staging = buffer({bytes, 0, Memory::read_back, "read-back of " + image.desc().name});
     const VkBufferImageCopy region = copy_of(image.desc(), layer, mip);
+    ImageState state = image.state();
     c.run("a read-back of image '" + image.desc().name + "'", [&](VkCommandBuffer commands) {
-        const SubresourceState before = image.state().part(layer, mip);
+        const SubresourceState before = state.part(layer, mip);
         const Range range{layer, 1, mip, 1};
-        c.barrier(commands, image, transition(image.state(), range, access_of(Use::copy_from, PassKind::transfer, false)));
+        c.barrier(commands, image, transition(state, range, access_of(Use::copy_from, PassKind::transfer, false)));
         c.vk.vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle(), 1, &region);
         // Back to where it was: reading a texture must not take it out of a table's layout.
         const Access back{
             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, before.layout, false, true};
-        c.barrier(commands, image, transition(image.state(), range, back));
+        c.barrier(commands, image, transition(state, range, back));
     });
+    image.state() = std::move(state);
     return {staging.mapped(), staging.mapped() + bytes};
 }
 
@@ -145,12 +155,8 @@ std::vector<std::byte> Device::read_back(Buffer& from)
     if (from.mapped()) return {from.mapped(), from.mapped() + bytes};
     Context& c = *impl_;
     require_queue(c);
-    Buffer staging = buffer({bytes, 0, Memory::read_back, "read-back of " + from.desc().name});
-    c.run("a read-back of buffer '" + from.desc().name + "'", [&](VkCommandBuffer commands) {
-        c.barrier(commands, from, transition(from.state(), access_of(Use::copy_from, PassKind::transfer, false)));
-        const VkBufferCopy region{0, 0, bytes};
-        c.vk.vkCmdCopyBuffer(commands, from.handle(), staging.handle(), 1, &region);
-    });
+    const Buffer staging = buffer({bytes, 0, Memory::read_back, "read-back of " + from.desc().name});
+    copy_buffer(c, "a read-back of buffer '" + from.desc().name + "'", from, staging, {0, 0, bytes}, from);
     return {staging.mapped(), staging.mapped() + bytes};
 }
 

@@ -45,7 +45,7 @@ base::Picture normals(const std::vector<std::byte>& texels, base::Size size, siz
 }
 
 /// Metres along the view axis, and the world position, from the reversed depth image.
-void unproject(const base::Picture& stored, const scene::View& view, base::Picture& depth, base::Picture& position)
+void unproject(const base::Picture& stored, const scene::View& view, vec3 origin, base::Picture& depth, base::Picture& position)
 {
     depth = base::Picture(stored.size, 1), position = base::Picture(stored.size, 3);
     for (int y = 0; y < stored.size.height; ++y)
@@ -57,7 +57,7 @@ void unproject(const base::Picture& stored, const scene::View& view, base::Pictu
             const vec4 h = view.world_from_clip * vec4(ndc, z, 1.0f);
             const vec3 p = vec3(h) / h.w;
             depth.at(x, y) = -(view.view_from_world * vec4(p, 1)).z;
-            for (int c = 0; c < 3; ++c) position.at(x, y, c) = p[c];
+            for (int c = 0; c < 3; ++c) position.at(x, y, c) = origin[c] + p[c];
         }
 }
 
@@ -124,12 +124,12 @@ void AovCopies::record_footprint(
     shadow::parts::draw_texel_footprint(passes, g, view, map, passes.import(images_.at("footprint")));
 }
 
-std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const scene::View& view)
+std::map<std::string, base::Picture> AovCopies::read(gpu::Device& device, const scene::View& view, vec3 origin)
 {
     std::map<std::string, base::Picture> out;
     if (images_.count("depth")) {
         base::Picture depth, position;
-        unproject(device.read_back(images_["depth"]), view, depth, position);
+        unproject(device.read_back(images_["depth"]), view, origin, depth, position);
         if (wants("depth")) out["depth"] = depth;
         if (wants("position")) out["position"] = position;
     }

@@ -24,7 +24,8 @@ public:
     void record(gpu::PassList&, const shadow::GBuffer&);
     bool wants_footprint() const { return images_.count("footprint") != 0; }
     void record_footprint(gpu::PassList&, const shadow::GBuffer&, const scene::View&, const shadow::parts::LightMap&);
-    std::map<std::string, base::Picture> read(gpu::Device&, const scene::View&);
+    std::map<std::string, base::Picture> read(
+        gpu::Device&, const scene::View&, vec3 origin); ///< positions are not counted from `origin`, views are
 
 private:
     std::set<std::string> names_;

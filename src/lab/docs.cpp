@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/docs_reliability.h"
 #include "lab/folder.h"
 
 #include "base/error.h"
@@ -119,6 +120,7 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
     }
     update(root / "README.md", {{"pictures", picture_grid(root)}});
     update(root / "docs" / "gallery.md", {{"gallery", gallery(root)}});
+    if (const fs::path page = root / "docs" / "reliability.md"; fs::exists(page)) update(page, {{"reliability", reliability_tables(root)}});
     return changed;
 }
 

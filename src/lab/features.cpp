@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/features.h"
 
+#include "scene/rebase.h"
 #include "truth/truth.h"
 
 #include <fmt/format.h>
@@ -123,7 +124,9 @@ bool moves(const Stage& stage, const StageOptions& options)
         if (b.name == options.scene) return false;
     scene::LoadOptions later = options.load;
     later.time += 0.37; // no whole part of a common length, at whose end all is as before
-    return !same_form(stage.scene, scene::load(options.scene, later));
+    scene::Scene moved = scene::load(options.scene, later);
+    scene::rebase(moved, stage.origin);
+    return !same_form(stage.scene, moved);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "lab/aov.h"
+#include "lab/render_tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,27 +47,31 @@ std::vector<uint32_t> words(const std::vector<std::byte>& bytes)
 
 class Renderer {
 public:
-    Renderer(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
+    /// `crop`: only this part of the stage's picture.
+    Renderer(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings,
+        const scene::Crop* crop = nullptr)
         : device_(device)
         , scene_(scene)
         , stage_(stage)
         , choice_(choice)
         , settings_(settings)
         , camera_(stage.camera)
+        , crop_(crop)
     {
+        const base::Size size = crop ? crop->size : stage.view.size;
         for (const scene::Light& light : stage.lights) {
             const std::string reason = refusal(*choice.info, device, light);
             if (!reason.empty()) base::fail("{}", reason);
             techniques_.push_back(choice.info->create(device));
             targets_.images.push_back(
-                make_image(device, output_format(*choice.info, choice.params.bytes(), light), stage.view.size, "technique's image"));
+                make_image(device, output_format(*choice.info, choice.params.bytes(), light), size, "technique's image"));
         }
-        targets_.primitive = make_image(device, VK_FORMAT_R32_UINT, stage.view.size, "primitive copy");
-        if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, stage.view.size, "radiance copy");
+        targets_.primitive = make_image(device, VK_FORMAT_R32_UINT, size, "primitive copy");
+        if (settings.lit) targets_.radiance = make_image(device, VK_FORMAT_R32G32B32A32_SFLOAT, size, "radiance copy");
     }
 
     void look_from(const scene::Camera& camera) { camera_ = camera; }
-    scene::View view(vec2 jitter = vec2(0)) const { return scene::make_view(camera_, stage_.view.size, stage_.bounds, jitter); }
+    scene::View view(vec2 jitter = vec2(0)) const { return scene::make_view(camera_, stage_.view.size, stage_.bounds, jitter, crop_); }
 
     gpu::Submitted draw(vec2 jitter, uint32_t frame, AovCopies* aovs, std::vector<Counter>* counters = nullptr)
     {
@@ -119,7 +124,7 @@ public:
     {
         for (gpu::Image& image : targets_.images) out.images.push_back(device_.read_back(image));
         out.primitive = words(device_.read_back_bytes(targets_.primitive));
-        out.aovs = aovs.read(device_, view());
+        out.aovs = aovs.read(device_, view(), stage_.origin);
         if (settings_.aovs.count("visibility")) out.aovs["visibility"] = out.images.front();
     }
 
@@ -146,6 +151,7 @@ private:
     const Choice& choice_;
     const RenderSettings& settings_;
     scene::Camera camera_;
+    const scene::Crop* crop_;
     std::vector<std::unique_ptr<Technique>> techniques_;
     Targets targets_;
     gpu::Buffer counted_;
@@ -200,13 +206,12 @@ void add_rgb(base::Picture& sum, const base::Picture& rgba, float weight)
         for (size_t c = 0; c < 3; ++c) sum.values[i * 3 + c] += weight * rgba.values[i * 4 + c];
 }
 
-} // namespace
-
-Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
+Rendered render_part(
+    gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings, const scene::Crop* crop)
 {
     Rendered out;
-    Renderer renderer(device, scene, stage, choice, settings);
-    AovCopies aovs(device, stage.view.size, settings.aovs);
+    Renderer renderer(device, scene, stage, choice, settings, crop);
+    AovCopies aovs(device, crop ? crop->size : stage.view.size, settings.aovs);
     // The first list makes pipelines and acceleration structures: it is timed only when it is the only one.
     const gpu::Submitted first = renderer.draw(vec2(0), settings.frame_index, &aovs);
     std::vector<std::vector<gpu::PassTime>> runs;
@@ -233,6 +238,22 @@ Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const 
         add_rgb(out.radiance, device.read_back(renderer.radiance()), 1.0f / float(settings.samples));
     }
     return out;
+}
+
+} // namespace
+
+Rendered render(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice, const RenderSettings& settings)
+{
+    const base::Size size = stage.view.size;
+    const int side = std::max(settings.tile, 1);
+    if (size.width <= side && size.height <= side) return render_part(device, scene, stage, choice, settings, nullptr);
+    Rendered whole;
+    for (int top = 0; top < size.height; top += side)
+        for (int left = 0; left < size.width; left += side) {
+            const scene::Crop crop{left, top, {std::min(side, size.width - left), std::min(side, size.height - top)}};
+            paste(whole, size, render_part(device, scene, stage, choice, settings, &crop), crop);
+        }
+    return whole;
 }
 
 std::vector<Rendered> render_sequence(gpu::Device& device, SceneGpu& scene, const Stage& stage, const Choice& choice,

@@ -45,6 +45,7 @@ struct RenderSettings {
     uint32_t frame_index = 0;
     Again again; ///< where given, says how many frames are timed, instead of `repeats`
     bool count = false; ///< one more frame, in which a technique that can counts its work
+    int tile = 4096; ///< pixels: pictures with a longer side are drawn in parts of at most so many each way, one after the other
     bool lit = true; ///< shade; otherwise only the techniques' images are made
     std::set<std::string> aovs; ///< aov_names()
     shadow::LightingSettings lighting;
@@ -65,8 +66,9 @@ struct Rendered {
     uint64_t technique_bytes = 0; ///< transients beyond the common ones and the images of the contract
 };
 
-/// Draws a stage with one technique for all its lights. `scene` is the stage's scene on the device. Throws base::Error with the
-/// technique's reason where it refuses the device or a light.
+/// Draws a stage with one technique for all its lights. A picture in parts is what it is in one piece, but for what a technique fits to
+/// what the view sees: its maps are then fitted to each part, and times are those of all parts together. `scene` is the stage's scene on
+/// the device. Throws base::Error with the technique's reason where it refuses the device or a light.
 Rendered render(gpu::Device&, shadow::SceneGpu& scene, const Stage&, const Choice&, const RenderSettings&);
 
 /// One technique object through frames that differ in nothing but the camera: images, primitives and aovs of each, neither lit nor timed.

@@ -95,6 +95,7 @@ Stage Sequence::at_time(int frame) const
 {
     StageOptions options = options_;
     options.load.time += double(frame) * *motion_.step;
+    options.origin = stage_.origin;
     Stage out = open_stage(options);
     out.camera = stage_.camera, out.lights = stage_.lights;
     out.view = scene::make_view(out.camera, stage_.view.size, out.bounds);

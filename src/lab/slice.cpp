@@ -68,7 +68,7 @@ shadow::GBuffer draw_receivers(gpu::PassList& passes, shadow::SceneGpu& scene, c
 Slice make_slice(const Stage& stage, const SliceOptions& options)
 {
     Slice out;
-    out.centre = options.centre.value_or(stage.bounds.centre());
+    out.centre = options.centre ? *options.centre - stage.origin : stage.bounds.centre();
     choose_axes(stage, options, out);
     const vec3 normal = glm::cross(out.right, out.up);
     vec2 extent(0);

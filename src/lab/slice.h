@@ -19,7 +19,7 @@ struct SliceOptions {
 };
 
 struct Slice {
-    vec3 centre, right, up; ///< the axes are unit vectors
+    vec3 centre, right, up; ///< the centre is counted from Stage::origin; the axes are unit vectors
     scene::View view; ///< orthographic, straight at the plane
     float depth; ///< of the plane in this view
 };

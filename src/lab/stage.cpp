@@ -2,6 +2,7 @@
 #include "lab/stage.h"
 
 #include "base/error.h"
+#include "scene/rebase.h"
 
 #include <charconv>
 
@@ -19,6 +20,8 @@ Stage open_stage(const StageOptions& options)
     Stage stage;
     stage.scene = scene::load(options.scene, options.load);
     stage.scene_name = stage.scene.name.empty() ? options.scene : stage.scene.name;
+    stage.origin = options.origin.value_or(scene::far_origin(stage.scene));
+    scene::rebase(stage.scene, stage.origin);
     stage.bounds = stage.scene.bounds();
     aim_stage(stage, options);
     return stage;
@@ -31,8 +34,9 @@ void aim_stage(Stage& stage, const StageOptions& options)
     if (options.camera.empty())
         stage.camera = stage.scene.cameras.empty() ? scene::fit_camera(stage.bounds) : stage.scene.cameras.front();
     else
-        stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds);
-    for (const std::string& text : options.lights) stage.lights.push_back(scene::parse_light(text, stage.scene.lights, stage.bounds));
+        stage.camera = scene::parse_camera(options.camera, stage.scene.cameras, stage.bounds, stage.origin);
+    for (const std::string& text : options.lights)
+        stage.lights.push_back(scene::parse_light(text, stage.scene.lights, stage.bounds, stage.origin));
     for (const scene::Light& light : stage.scene.lights)
         if (stage.lights.empty() && (options.kinds & (1u << unsigned(light.kind())))) stage.lights.push_back(light);
     if (stage.lights.empty()) stage.lights.push_back(scene::parse_light("directional,elevation=50,azimuth=35,angle=0", {}, stage.bounds));

@@ -4,6 +4,7 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,14 @@ struct StageOptions {
     std::string camera; ///< scene::parse_camera; empty = the scene's first, else fitted
     std::vector<std::string> lights; ///< scene::parse_light each; empty = the scene's first of `kinds`, else a sun
     base::Size size{960, 540}; ///< pixels
+    std::optional<vec3> origin; ///< Stage::origin; left out: scene::far_origin
     unsigned kinds = ~0u; ///< kinds of light (1 << LightKind) to choose from where none is named
 };
 
 /// A scene with one camera and its lights: everything of a picture but the technique.
 struct Stage {
     std::string scene_name;
+    vec3 origin{0}; ///< everything below is counted from here (scene/rebase.h); what people write and read is not
     scene::Scene scene;
     Bounds bounds;
     scene::Camera camera;

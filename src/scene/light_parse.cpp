@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 #include "base/names.h"
-#include "scene/light.h"
 #include "scene/option_text.h"
+#include "scene/rebase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 struct Draft {
     Light light;
     std::string_view text;
+    vec3 origin{0}; ///< of the light, not of the text
     bool known = false; ///< starts from a light of the scene, whose aim is kept
     bool moved = false, aimed = false;
     vec3 target{0};
@@ -31,6 +32,7 @@ struct Draft {
     }
     float radians(const auto& pair, float low, float high) const { return glm::radians(number(pair, low, high, "degrees")); }
     vec3 vector(const auto& pair) const { return option_vec3(place(pair.first), pair.second); }
+    vec3 point(const auto& pair) const { return option_point(place(pair.first), pair.second, origin); }
 };
 
 vec3 direction_from_angles(float elevation, float azimuth)
@@ -92,9 +94,9 @@ void apply(Draft& draft, DirectionalLight& light, const Pairs& pairs)
 bool placing_key(Draft& draft, vec3& position, const Pairs::value_type& pair)
 {
     if (pair.first == "position")
-        position = draft.vector(pair), draft.moved = true;
+        position = draft.point(pair), draft.moved = true;
     else if (pair.first == "target")
-        draft.target = draft.vector(pair), draft.aimed = true;
+        draft.target = draft.point(pair), draft.aimed = true;
     else
         return false;
     return true;
@@ -133,7 +135,7 @@ void apply(Draft& draft, PointLight& light, const Pairs& pairs)
     for (const auto& pair : pairs) {
         if (common_key(draft, pair)) continue;
         if (pair.first == "position")
-            light.position = draft.vector(pair);
+            light.position = draft.point(pair);
         else if (pair.first == "radius")
             light.radius = draft.number(pair, 0.0f, largest_size, "m");
         else
@@ -205,11 +207,11 @@ std::optional<Light> fresh_light(std::string_view kind, const Bounds& bounds)
 
 } // namespace
 
-Light parse_light(std::string_view text, const std::vector<Light>& known, const Bounds& bounds)
+Light parse_light(std::string_view text, const std::vector<Light>& known, const Bounds& bounds, vec3 origin)
 {
     const OptionText options = split_options(text);
     Draft draft;
-    draft.text = text;
+    draft.text = text, draft.origin = origin;
     draft.target = bounds.empty() ? vec3(0.0f) : bounds.centre();
     const auto own = std::find_if(known.begin(), known.end(), [&](const Light& l) { return l.name == options.name; });
     if (own != known.end()) {
@@ -224,6 +226,11 @@ Light parse_light(std::string_view text, const std::vector<Light>& known, const 
     }
     std::visit([&](auto& shape) { apply(draft, shape, options.pairs); }, draft.light.shape);
     return draft.light;
+}
+
+Light parse_light(std::string_view text, const std::vector<Light>& known, const Bounds& bounds)
+{
+    return parse_light(text, known, bounds, vec3(0));
 }
 
 } // namespace gnomon::scene

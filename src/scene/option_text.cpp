@@ -31,7 +31,7 @@ std::vector<std::string_view> split(std::string_view text, char at)
     }
 }
 
-bool parse_float(std::string_view text, float& value)
+template <class Number> bool parse_number(std::string_view text, Number& value)
 {
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -68,7 +68,8 @@ OptionText split_options(std::string_view text)
 float option_number(const OptionPlace& place, std::string_view value, float low, float high, std::string_view unit)
 {
     float number = 0.0f;
-    if (!parse_float(value, number)) base::fail("{} '{}': {} is '{}', which is no finite number", place.what, place.text, place.key, value);
+    if (!parse_number(value, number))
+        base::fail("{} '{}': {} is '{}', which is no finite number", place.what, place.text, place.key, value);
     if (number < low || number > high)
         base::fail("{} '{}': {} is {}, outside its range {} to {}{}{}", place.what, place.text, place.key, value, low, high,
             unit.empty() ? "" : " ", unit);
@@ -78,6 +79,16 @@ float option_number(const OptionPlace& place, std::string_view value, float low,
 vec3 option_vec3(const OptionPlace& place, std::string_view value)
 {
     return three_numbers(place, value, -largest_coordinate, largest_coordinate);
+}
+
+vec3 option_point(const OptionPlace& place, std::string_view value, vec3 origin)
+{
+    const vec3 checked = option_vec3(place, value);
+    if (origin == vec3(0)) return checked;
+    const auto parts = split(value, '/');
+    glm::dvec3 exact(0.0);
+    for (int i = 0; i < 3; ++i) parse_number(parts[size_t(i)], exact[i]);
+    return vec3(exact - glm::dvec3(origin));
 }
 
 vec3 option_color(const OptionPlace& place, std::string_view value)

@@ -29,6 +29,8 @@ struct OptionPlace {
 float option_number(const OptionPlace&, std::string_view value, float low, float high, std::string_view unit = "");
 /// x/y/z, each finite and at most 1e9.
 vec3 option_vec3(const OptionPlace&, std::string_view value);
+/// A point so stated, counted from `origin` (scene/rebase.h) without rounding it far away first.
+vec3 option_point(const OptionPlace&, std::string_view value, vec3 origin);
 /// r/g/b (linear, from 0) or #rrggbb (sRGB), as linear.
 vec3 option_color(const OptionPlace&, std::string_view value);
 /// Throws Error with the near names, or with all keys where none is near.

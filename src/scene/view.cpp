@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/view.h"
+#include "scene/crop.h"
 
 #include "base/error.h"
 
@@ -93,9 +93,19 @@ dmat4 orthographic(const Camera& c, double aspect, const dmat4& view_from_world,
     return m;
 }
 
+/// Clip coordinates of the whole picture to those of a part of it.
+dmat4 part_of(Size whole, const Crop& crop)
+{
+    dmat4 m(1.0);
+    m[0][0] = double(whole.width) / crop.size.width, m[1][1] = double(whole.height) / crop.size.height;
+    m[3][0] = double(whole.width - 2 * crop.left) / crop.size.width - 1.0;
+    m[3][1] = double(whole.height - 2 * crop.top) / crop.size.height - 1.0;
+    return m;
+}
+
 } // namespace
 
-View make_view(const Camera& camera, Size size, const Bounds& scene_bounds, vec2 jitter)
+View make_view(const Camera& camera, Size size, const Bounds& scene_bounds, vec2 jitter, const Crop* crop)
 {
     check(camera, size);
     const double aspect = double(size.width) / double(size.height);
@@ -108,6 +118,7 @@ View make_view(const Camera& camera, Size size, const Bounds& scene_bounds, vec2
     const double dx = 2.0 * double(jitter.x) / size.width, dy = 2.0 * double(jitter.y) / size.height;
     dmat4 shift(1.0);
     shift[3][0] = dx, shift[3][1] = dy;
+    if (crop) shift = part_of(size, *crop) * shift;
     clip_from_view = shift * clip_from_view;
     const dmat4 clip_from_world = clip_from_view * view_from_world;
 
@@ -117,8 +128,13 @@ View make_view(const Camera& camera, Size size, const Bounds& scene_bounds, vec2
     view.world_from_clip = mat4(glm::inverse(clip_from_world));
     view.eye = camera.eye;
     view.near = float(near);
-    view.size = size;
+    view.size = crop ? crop->size : size;
     return view;
+}
+
+View make_view(const Camera& camera, Size size, const Bounds& scene_bounds, vec2 jitter)
+{
+    return make_view(camera, size, scene_bounds, jitter, nullptr);
 }
 
 Ray view_ray(const View& view, vec2 pixel)

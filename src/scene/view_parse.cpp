@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "scene/option_text.h"
-#include "scene/view.h"
+#include "scene/rebase.h"
 
 namespace gnomon::scene {
 
@@ -21,12 +21,12 @@ const Camera* find_camera(std::string_view text, std::string_view name, const st
     return found;
 }
 
-void apply(Camera& camera, const OptionPlace& place, std::string_view value)
+void apply(Camera& camera, const OptionPlace& place, std::string_view value, vec3 origin)
 {
     if (place.key == "eye")
-        camera.eye = option_vec3(place, value);
+        camera.eye = option_point(place, value, origin);
     else if (place.key == "target")
-        camera.target = option_vec3(place, value);
+        camera.target = option_point(place, value, origin);
     else if (place.key == "up")
         camera.up = option_vec3(place, value);
     else if (place.key == "fov")
@@ -43,7 +43,7 @@ void apply(Camera& camera, const OptionPlace& place, std::string_view value)
 
 } // namespace
 
-Camera parse_camera(std::string_view text, const std::vector<Camera>& known, const Bounds& bounds)
+Camera parse_camera(std::string_view text, const std::vector<Camera>& known, const Bounds& bounds, vec3 origin)
 {
     const OptionText options = split_options(text);
     Camera camera;
@@ -58,10 +58,15 @@ Camera parse_camera(std::string_view text, const std::vector<Camera>& known, con
         for (const Camera& c : known) names.push_back(c.name);
         base::fail("camera '{}': {}", text, base::unknown_name("name", options.name, names));
     }
-    for (const auto& [key, value] : options.pairs) apply(camera, {"camera", text, key}, value);
+    for (const auto& [key, value] : options.pairs) apply(camera, {"camera", text, key}, value, origin);
     if (glm::length(camera.target - camera.eye) <= 0.0f)
         base::fail("camera '{}': eye and target are the same point; move one of them", text);
     return camera;
+}
+
+Camera parse_camera(std::string_view text, const std::vector<Camera>& known, const Bounds& bounds)
+{
+    return parse_camera(text, known, bounds, vec3(0));
 }
 
 } // namespace gnomon::scene

@@ -91,8 +91,9 @@ gpu::Buffer& SceneGpu::casters()
             uint32_t(slot.set == draw_blended)});
     }
     all.resize(std::max<size_t>(all.size(), 1));
-    s.casters = s.device->buffer({all.size() * sizeof(shaders::Caster), 0, gpu::Memory::device, "casters"});
-    s.device->upload(s.casters, std::as_bytes(std::span(all)));
+    gpu::Buffer casters = s.device->buffer({all.size() * sizeof(shaders::Caster), 0, gpu::Memory::device, "casters"});
+    s.device->upload(casters, std::as_bytes(std::span(all)));
+    s.casters = std::move(casters); // not before it is filled: the upload may throw
     return s.casters;
 }
 

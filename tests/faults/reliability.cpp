@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reliability.h"
+
+#include "base/file.h"
+
+#include <cstdlib>
+
+namespace gnomon::tests {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> results_folder()
+{
+    const char* folder = std::getenv("GNOMON_RELIABILITY");
+    if (!folder || !*folder) return {};
+    return fs::path(folder);
+}
+
+void record(const std::string& file, const nlohmann::ordered_json& row)
+{
+    const std::optional<fs::path> folder = results_folder();
+    if (!folder) return;
+    const fs::path path = *folder / (file + ".json");
+    nlohmann::ordered_json json = {{"rows", nlohmann::ordered_json::array()}};
+    if (fs::exists(path)) json = nlohmann::ordered_json::parse(base::read_text(path));
+    json["rows"].push_back(row);
+    base::write_text(path, json.dump(1) + "\n");
+}
+
+} // namespace gnomon::tests

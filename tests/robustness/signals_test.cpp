@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// SIGINT and SIGTERM at any moment of any command: it ends at once, leaves no part of a file and nothing temporary.
+#include "process.h"
+#include "tests/faults/reliability.h"
+#include "tests/source_root.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace gnomon::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Command {
+    const char* name;
+    std::vector<std::string> words;
+};
+
+std::vector<Command> commands()
+{
+    const std::vector<std::string> small = {"--detail", "0.05", "--size", "48x32"};
+    const auto with = [&](std::vector<std::string> words) {
+        words.insert(words.end(), small.begin(), small.end());
+        return words;
+    };
+    return {
+        {"render", with({"render", "contact", "--samples", "16", "--aov", "depth,normal", "-o", "out/a.png"})},
+        {"truth", with({"truth", "contact", "--light", "sun,angle=4", "--samples", "2048", "-o", "out/a.exr"})},
+        {"compare", with({"compare", "contact", "--techniques", "shadow_map,pcf,vsm", "--truth-samples", "64", "-o", "out"})},
+        {"bench", with({"bench", "contact", "--techniques", "shadow_map,pcf", "--repeats", "20"})},
+        {"slice", with({"slice", "contact", "--truth", "-o", "out/a.png"})},
+        {"advise", {"advise", "contact", "--size", "64x48", "-o", "out/a.md"}},
+        {"tune",
+            {"tune", "shadow_map", source_root() / "experiments/tuning/boards.json", "--vary", "constant_bias", "--size", "48x32",
+                "--budget", "6", "-o", "out/a.json"}},
+        {"docs", {"docs", "--check"}},
+    };
+}
+
+/// Files end as their formats do, so that half of one is seen.
+void expect_whole(const fs::path& file)
+{
+    const std::string text = read_whole(file), kind = file.extension();
+    if (kind == ".png") EXPECT_EQ(text.substr(std::max<size_t>(text.size(), 8) - 8, 4), "IEND") << file;
+    if (kind == ".html") EXPECT_NE(text.find("</html>"), std::string::npos) << file;
+    if (kind == ".json") EXPECT_EQ(text.substr(std::max<size_t>(text.size(), 2) - 2), "}\n") << file;
+    if (kind == ".exr") EXPECT_GT(text.size(), 1000u) << file;
+    EXPECT_NE(kind, ".tmp") << file << " is left";
+}
+
+/// What children do after their parent's end may take a moment.
+void expect_empty_soon(const fs::path& folder)
+{
+    for (int i = 0; i < 500 && !fs::is_empty(folder); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(fs::is_empty(folder)) << fs::directory_iterator(folder)->path();
+}
+
+class Signals : public testing::TestWithParam<Command> { };
+void PrintTo(const Command& c, std::ostream* out) { *out << c.name; }
+
+TEST_P(Signals, EndItAtOnceAndLeaveNothingInPart)
+{
+    const Scratch scratch;
+    fs::create_directories(scratch / "tmp");
+    RunOptions options{.environment = {{"TMPDIR", scratch / "tmp"}, {"GNOMON_ROOT", source_root()}}, .seconds = 300};
+    const Finished whole = run_gnomon(GetParam().words, scratch.folder(), options);
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const int runs = at_full_length() ? 24 : 2;
+    int ended = 0;
+    for (int i = 0; i < runs; ++i) {
+        fs::remove_all(scratch / "out");
+        fs::remove_all(scratch / ".cache");
+        const auto begin = std::chrono::steady_clock::now();
+        const double moment = whole.seconds * (i + 0.5) / runs;
+        const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+        options.kill_when = [&] { return elapsed() >= moment; };
+        options.kill_signal = i % 2 ? SIGTERM : SIGINT;
+        const Finished f = run_gnomon(GetParam().words, scratch.folder(), options);
+        EXPECT_TRUE(f.code == 0 || f.signal == options.kill_signal) << "code " << f.code << ", signal " << f.signal << ": " << f.err;
+        EXPECT_LT(f.seconds, moment + 5) << "it went on";
+        ended += f.signal != 0;
+        for (const fs::directory_entry& e : fs::recursive_directory_iterator(scratch.folder()))
+            if (e.is_regular_file()) expect_whole(e.path());
+        expect_empty_soon(scratch / "tmp");
+    }
+    options.kill_when = {};
+    EXPECT_EQ(run_gnomon(GetParam().words, scratch.folder(), options).code, 0) << "afterwards";
+    EXPECT_GT(ended, 0);
+    record("faults",
+        {{"fault", "SIGINT, SIGTERM"}, {"technique", std::string(GetParam().name) + " (the program)"}, {"calls", runs}, {"tried", runs},
+            {"refused", ended}, {"failures", HasFailure()}});
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, Signals, testing::ValuesIn(commands()), [](const auto& p) { return std::string(p.param.name); });
+
+} // namespace
+} // namespace gnomon::tests
