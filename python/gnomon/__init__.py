@@ -31,6 +31,9 @@ __all__ = [
     "scene", "scenes", "techniques", "truth",
 ]
 
+for _type in (Device, Error, Render, Scene, Truth):
+    _type.__module__ = __name__  # as tracebacks and help() say it
+
 SceneLike = Union[Scene, str, "os.PathLike[str]"]
 Lights = Union[str, Sequence[str], None]
 Value = Union[bool, int, float, str]

@@ -293,6 +293,7 @@ class Arrays(unittest.TestCase):
             with self.subTest(sentence), self.assertRaises(gnomon.Error) as caught:
                 call()
             self.assertIn(sentence, str(caught.exception))
+        self.assertEqual(gnomon.Error.__module__, "gnomon")
 
 
 class Threads(unittest.TestCase):
