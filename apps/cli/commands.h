@@ -113,6 +113,13 @@ struct Slice {
 };
 int slice(const Slice&);
 
+struct Export {
+    Common common;
+    std::string technique, language, output, light, scene = "fence", size = "640x360";
+    std::vector<std::string> set; ///< name=value
+};
+int export_shaders(const Export&);
+
 struct Figures {
     Common common;
     std::string file, output;

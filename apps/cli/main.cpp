@@ -171,6 +171,10 @@ int run(int argc, char** argv)
         = app.add_subcommand("slice", "The shadow value at every point of a plane through the scene, as if a receiver stood there");
     cli::add_slice(*slice_app, slice);
 
+    cli::Export exported;
+    CLI::App* export_app = app.add_subcommand("export", "A technique's shaders as GLSL, HLSL, MSL or SPIR-V, and how to run them");
+    cli::add_export(*export_app, exported);
+
     cli::Figures figures;
     CLI::App* figures_app = app.add_subcommand("figures", "Pictures beside one another, and their page, from a figures file");
     figures_app->add_option("file", figures.file, "A figures file, as experiments/*/figures.json")->required();
@@ -240,6 +244,7 @@ int run(int argc, char** argv)
         slice.parameters = cli::technique_options(*slice_app, slice.technique);
         return cli::slice(slice);
     }
+    if (*export_app) return cli::export_shaders(exported);
     if (*figures_app) return cli::figures(figures);
     if (*curves_app) return cli::curves(curves);
     if (*sweep_app) return cli::sweep(sweep);

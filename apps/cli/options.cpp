@@ -67,6 +67,20 @@ void add_slice(CLI::App& app, Slice& slice)
     add_common(app, slice.common);
 }
 
+void add_export(CLI::App& app, Export& what)
+{
+    app.add_option("technique", what.technique, "Technique, by its id; parameters may follow after colons, or @preset.json")->required();
+    app.add_option("--to", what.language, "glsl (for Vulkan), hlsl (shader model 6.0), msl (2.4) or spirv")->required();
+    app.add_option("-o,--output", what.output, "A new or empty folder, or an earlier export, which is replaced")->required();
+    app.add_option("--light", what.light, "What it is recorded for: directional, spot, point, rect or disk, or a light with its keys");
+    app.add_option("--set", what.set, "A parameter, as map_size=4096; may be repeated")->allow_extra_args(false);
+    app.add_option("--scene", what.scene, "What it is recorded on: passes differ only where a scene lacks masked or emitting materials")
+        ->capture_default_str();
+    app.add_option("--size", what.size, "Of the view that it is recorded for")->capture_default_str();
+    app.footer("Exit code 1, with the reason for each, where the language cannot say some of the shaders; all others are written.");
+    add_common(app, what.common);
+}
+
 void add_look(CLI::App& app, float& exposure, float& ambient)
 {
     app.add_option("--exposure", exposure, "Stops brighter or darker")->check(CLI::Range(-20.0, 20.0))->capture_default_str();

@@ -15,6 +15,7 @@ void add_common(CLI::App&, Common&, bool device = true);
 void add_picture(CLI::App&, Picture&, bool camera = true);
 void add_look(CLI::App&, float& exposure, float& ambient);
 void add_slice(CLI::App&, Slice&);
+void add_export(CLI::App&, Export&);
 void add_view(CLI::App&, View&);
 
 /// `--<technique>.<parameter> value` and `--<technique>.<parameter>=value` for the technique that runs, as parameter=value.

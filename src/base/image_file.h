@@ -34,7 +34,7 @@ struct Pixels8 {
     int width = 0, height = 0;
     std::vector<uint8_t> rgba;
 };
-/// Decodes a PNG or JPEG (also BMP, TGA, GIF: the first frame) in memory. `name` is for the error. Throws Error.
+/// Decodes a PNG or JPEG in memory. `name` is for the error. Throws Error.
 Pixels8 decode_rgba8(std::span<const std::byte>, std::string_view name);
 
 /// Named channels of an EXR file, 32-bit float. `names` has one entry a channel ("R", "G", "B", "Y", "variance" ...).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image_check.h"
 #include "base/image_file.h"
 
 #include <algorithm>
@@ -11,12 +12,10 @@
 // Static, because other libraries in the same program carry their own copies of stb.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_NO_HDR
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
-#define STBI_NO_PSD
-#define STBI_NO_PIC
-#define STBI_NO_PNM
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
@@ -57,10 +56,15 @@ Encoded inspect(std::span<const std::byte> file, std::string_view name)
     Encoded e{reinterpret_cast<const stbi_uc*>(file.data()), 0, 0, 0, 0};
     if (file.size() > size_t(INT_MAX)) fail("the picture '{}' has {} bytes; at most {} can be read", name, file.size(), INT_MAX);
     e.size = int(file.size());
+    const auto refuse = [&](const std::string& fault) {
+        if (!fault.empty()) fail("cannot decode the picture '{}': it {}; the file is damaged", name, fault);
+    };
+    refuse(unfit_form(file));
     if (!stbi_info_from_memory(e.data, e.size, &e.width, &e.height, &e.channels))
         fail("cannot decode the picture '{}': {}; give a PNG or JPEG file", name, stbi_failure_reason());
     if (e.width <= 0 || e.height <= 0 || e.width > longest_side || e.height > longest_side)
         fail("the picture '{}' has {}x{} pixels; at most {} a side are read", name, e.width, e.height, longest_side);
+    refuse(unfit_size(file, uint64_t(e.width) * uint64_t(e.height)));
     return e;
 }
 

@@ -241,6 +241,7 @@ public:
 
 private:
     friend class Device;
+    friend const struct ListData& contents(const PassList&); ///< describe.h
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

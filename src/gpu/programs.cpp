@@ -89,7 +89,7 @@ uint32_t Programs::add_stage(ProgramImpl& program, std::string_view shader, VkSh
     VkShaderModule module;
     check(context_.vk.vkCreateShaderModule(context_.handle, &info, nullptr, &module), "vkCreateShaderModule", shader);
     context_.name(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(module), shader);
-    program.stages.push_back({stage, module});
+    program.stages.push_back({stage, module, std::string(shader)});
     return uint32_t(program.stages.size() - 1);
 }
 

@@ -12,6 +12,7 @@ namespace gnomon::gpu {
 struct ShaderStage {
     VkShaderStageFlagBits stage;
     VkShaderModule module;
+    std::string shader; ///< its name among the embedded ones
 };
 
 /// Everything of a raster pass that a pipeline has fixed.

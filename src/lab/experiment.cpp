@@ -47,14 +47,6 @@ std::string scalar_text(const Json& value)
 
 namespace {
 
-int whole_number(const Json& json, const char* key, int otherwise, int low, int high)
-{
-    if (!json.contains(key)) return otherwise;
-    if (!json[key].is_number_integer() || json[key] < low || json[key] > high)
-        base::fail("\"{}\" takes a whole number from {} to {}, not {}", key, low, high, json[key].dump().substr(0, 40));
-    return json[key].get<int>();
-}
-
 Experiment parse(const Json& json, const fs::path& file)
 {
     Experiment out;
@@ -82,7 +74,7 @@ Experiment parse(const Json& json, const fs::path& file)
 Experiment read_experiment(const fs::path& file)
 {
     const std::string text = base::read_text(file);
-    return naming(file, [&] { return parse(Json::parse(text), file); });
+    return naming(file, [&] { return parse(parse_json(text, file), file); });
 }
 
 } // namespace gnomon::lab

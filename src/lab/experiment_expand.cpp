@@ -180,7 +180,8 @@ private:
         const std::filesystem::path beside = file.parent_path() / scene.text;
         if (std::filesystem::is_regular_file(beside) && !std::filesystem::exists(scene.text)) cell.stage.scene = beside.string();
         if (!scene.object.is_null())
-            cell.stage.load = {scene.object.value("time", 0.0), scene.object.value("detail", 1.0), scene.object.value("gltf_scene", -1)};
+            cell.stage.load = {scene.object.value("time", 0.0), scene.object.value("detail", 1.0),
+                whole_number(scene.object, "gltf_scene", -1, -1, 1 << 20)};
         cell.stage.camera = camera.text;
         if (!light.text.empty()) cell.stage.lights = {light.text};
         cell.stage.size = parse_size(size);

@@ -3,12 +3,14 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/image_file.h"
 #include "base/names.h"
 #include "lab/json_keys.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon::lab {
 
@@ -23,10 +25,35 @@ const std::vector<std::string> shows = {
 const std::vector<std::string> panel_keys = {"label", "technique", "quantity", "show", "scene", "detail", "camera", "light", "size",
     "reference", "gain", "crop", "zoom", "slice_centre", "slice_right", "slice_up", "slice_height"};
 
+float number_of(const Json& j, const char* key, float otherwise, float low, float high, const fs::path& file)
+{
+    const double number = j.value(key, double(otherwise));
+    if (!(number >= double(low) && number <= double(high)))
+        base::fail("{}: '{}' is {:g}; it takes {:g} to {:g}", file.string(), key, number, low, high);
+    return float(number);
+}
+
 vec3 vector_of(const Json& v, const char* key, const fs::path& file)
 {
-    if (!v.is_array() || v.size() != 3) base::fail("{}: '{}' is not a list of three numbers", file.string(), key);
-    return vec3(v[0].get<float>(), v[1].get<float>(), v[2].get<float>());
+    constexpr double farthest = 1e9; // metres, as on the command line
+    vec3 out(0);
+    for (size_t i = 0; i < 3; ++i) {
+        if (!v.is_array() || v.size() != 3 || !v[i].is_number() || !(std::abs(v[i].get<double>()) <= farthest))
+            base::fail("{}: '{}' is not a list of three numbers of at most {:g}", file.string(), key, farthest);
+        out[int(i)] = v[i].get<float>();
+    }
+    return out;
+}
+
+std::array<int, 4> crop_of(const Json& v, const fs::path& file)
+{
+    std::array<int, 4> out{};
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (!v.is_array() || v.size() != out.size() || !v[i].is_number_integer() || v[i] < 0 || v[i] > base::longest_side)
+            base::fail("{}: 'crop' is not [x, y, width, height] in whole pixels up to {}", file.string(), base::longest_side);
+        out[i] = v[i].get<int>();
+    }
+    return out;
 }
 
 Show show_of(const std::string& text, const fs::path& file)
@@ -60,13 +87,13 @@ FigurePanel panel_of(const Json& j, const fs::path& file)
     if (j.contains("light")) p.stage.lights = {j["light"].get<std::string>()};
     p.stage.size = parse_size(j.value("size", "320x240"));
     p.reference = j.value("reference", "");
-    p.gain = j.value("gain", 1.0f);
-    p.zoom = std::clamp(j.value("zoom", 1), 1, 16);
-    if (j.contains("crop")) p.crop = j["crop"].get<std::array<int, 4>>();
+    p.gain = number_of(j, "gain", 1.0f, 1e-6f, 1e6f, file);
+    p.zoom = whole_number(j, "zoom", 1, 1, 16);
+    if (j.contains("crop")) p.crop = crop_of(j["crop"], file);
     if (j.contains("slice_centre")) p.slice.centre = vector_of(j["slice_centre"], "slice_centre", file);
     if (j.contains("slice_right")) p.slice.right = vector_of(j["slice_right"], "slice_right", file);
     if (j.contains("slice_up")) p.slice.up = vector_of(j["slice_up"], "slice_up", file);
-    p.slice.height = j.value("slice_height", 0.0f);
+    p.slice.height = number_of(j, "slice_height", 0.0f, 0.0f, 1e9f, file);
     if (p.technique != "truth") parse_choice(p.technique);
     if (p.show == Show::filter_error) {
         if (p.reference.empty()) base::fail("{}: the panel '{}' shows filter_error and names no reference", file.string(), p.label);
@@ -85,7 +112,7 @@ Figure figure_of(const Json& j, const fs::path& file)
     if (figure.id.empty() || figure.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-.") != std::string::npos)
         base::fail(
             "{}: '{}' cannot be the id of a figure; ids are made of small letters, digits, '_', '-' and '.'", file.string(), figure.id);
-    figure.columns = std::clamp(j.value("columns", 3), 1, 8);
+    figure.columns = whole_number(j, "columns", 3, 1, 8);
     if (!j.contains("panels") || !j["panels"].is_array() || j["panels"].empty())
         base::fail("{}: the figure '{}' has no list of panels", file.string(), figure.id);
     for (const Json& own : j["panels"]) {
@@ -102,9 +129,9 @@ Figure figure_of(const Json& j, const fs::path& file)
 Figures read_figures(const fs::path& file)
 {
     try {
-        const Json j = Json::parse(base::read_text(file));
+        const Json j = parse_json(base::read_text(file), file);
         known_keys(j, {"title", "about", "figures", "truth_samples"}, file);
-        Figures out{j.value("title", ""), j.value("about", ""), {}, std::clamp(j.value("truth_samples", 256), 1, 1 << 20)};
+        Figures out{j.value("title", ""), j.value("about", ""), {}, whole_number(j, "truth_samples", 256, 1, 1 << 20)};
         for (const Json& figure : j.at("figures")) out.figures.push_back(figure_of(figure, file));
         return out;
     } catch (const nlohmann::json::exception& e) {

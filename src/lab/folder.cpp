@@ -2,8 +2,6 @@
 #include "lab/folder.h"
 
 #include "base/error.h"
-#include "base/file.h"
-#include "lab/json_keys.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,44 +26,6 @@ fs::path project_root()
     base::fail("this folder is not inside a checkout of Gnomon; change into one or set GNOMON_ROOT");
 }
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-TechniqueScene parse(const Json& json, const fs::path& file)
-{
-    known_keys(json, {"scene", "detail", "camera", "lights", "params", "truth_samples", "promise", "golden_tolerance", "reference"}, file);
-    TechniqueScene out;
-    out.scene = json.at("scene").get<std::string>();
-    out.detail = json.value("detail", 1.0);
-    out.camera = json.value("camera", "");
-    out.truth_samples = json.value("truth_samples", 256);
-    out.reference = json.value("reference", "");
-    if (json.contains("params")) out.params = json["params"].dump();
-    for (const auto& [kind, light] : json.at("lights").items()) out.lights[kind] = light.get<std::string>();
-    for (const auto& [kind, bounds] : json.at("promise").items())
-        for (const auto& [metric, bound] : bounds.items()) out.promise[kind][metric] = bound.get<double>();
-    if (json.contains("golden_tolerance")) {
-        const Json& tolerance = json["golden_tolerance"];
-        known_keys(tolerance, {"pixels", "mean", "reason"}, file);
-        if (tolerance.value("reason", "").empty()) base::fail("{}: golden_tolerance needs a \"reason\"", file.string());
-        out.golden_pixels = tolerance.value("pixels", out.golden_pixels), out.golden_mean = tolerance.value("mean", out.golden_mean);
-    }
-    return out;
-}
-
-} // namespace
-
-TechniqueScene read_technique_scene(const fs::path& folder)
-{
-    const fs::path file = folder / "scene.json";
-    try {
-        return parse(Json::parse(base::read_text(file)), file);
-    } catch (const nlohmann::json::exception& e) {
-        base::fail("{}: {}", file.string(), e.what());
-    }
-}
-
 std::vector<std::string> claimed_kinds(const shadow::TechniqueInfo& info)
 {
     std::vector<std::string> out;
@@ -88,7 +48,7 @@ Stage technique_stage(const TechniqueScene& own, const std::string& kind, base::
 Choice technique_choice(const shadow::TechniqueInfo& info, const TechniqueScene& own)
 {
     Choice choice{&info, shadow::ParamValues(info.params())};
-    choice.params.set_json(Json::parse(own.params));
+    choice.params.set_json(nlohmann::ordered_json::parse(own.params));
     return choice;
 }
 

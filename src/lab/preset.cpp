@@ -90,7 +90,7 @@ Choice read_preset_choice(const std::filesystem::path& file)
 {
     const std::string text = base::read_text(file, uint64_t(1) << 20);
     return naming(file, [&] {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text, file);
         known_keys(json,
             {"format", "technique", "params", "vary", "minimise", "under", "reference", "tuning", "validation", "evaluations", "seed",
                 "device", "driver", "commit"},

@@ -2,13 +2,9 @@
 #include "lab/sweep.h"
 
 #include "base/error.h"
-#include "base/line_file.h"
-#include "lab/compare.h"
-#include "lab/folder.h"
+#include "base/json_depth.h"
 
 #include <algorithm>
-#include <cctype>
-#include <fstream>
 #include <set>
 
 namespace gnomon::lab {
@@ -18,12 +14,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string processor()
+bool is_pass(const Json& pass)
 {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
-    return "unknown";
+    const auto is = [&](const char* key, bool (Json::*type)() const noexcept) { return !pass.contains(key) || (pass[key].*type)(); };
+    return pass.is_object() && is("name", &Json::is_string) && is("count", &Json::is_number_unsigned);
 }
 
 bool is_result(const Json& json)
@@ -32,7 +26,8 @@ bool is_result(const Json& json)
     for (const char* key : {"key", "device", "driver", "commit", "technique"})
         if (!json.contains(key) || !json[key].is_string()) return false;
     if (json.contains("skipped")) return json["skipped"].is_string();
-    return json.contains("metrics") && json["metrics"].is_object() && json.contains("passes") && json["passes"].is_array();
+    if (!json.contains("metrics") || !json["metrics"].is_object() || !json.contains("passes") || !json["passes"].is_array()) return false;
+    return std::all_of(json["passes"].begin(), json["passes"].end(), is_pass);
 }
 
 std::optional<double> number_at(const Json& object, const std::string& key)
@@ -60,7 +55,7 @@ std::optional<double> pass_ms(const Json& line, const std::string& owner, std::s
 {
     std::optional<double> sum;
     for (const Json& pass : line.at("passes")) {
-        const std::string name = pass.is_object() ? pass.value("name", "") : "";
+        const std::string name = pass.value("name", "");
         if (name.rfind(owner, 0) != 0 || !names_pass(patterns, std::string_view(name).substr(owner.size()))) continue;
         if (const std::optional<double> ms = number_at(pass, "ms")) sum = sum.value_or(0.0) + *ms;
     }
@@ -83,19 +78,15 @@ size_t own_passes(const Json& line)
     size_t count = 0;
     const std::string owner = line.at("technique").get<std::string>() + "/";
     for (const Json& pass : line.at("passes"))
-        if (pass.is_object() && pass.value("name", "").rfind(owner, 0) == 0) count += pass.value("count", size_t(1));
+        if (pass.value("name", "").rfind(owner, 0) == 0) count += pass.value("count", size_t(1));
     return count;
 }
 
 } // namespace
 
-Provenance provenance(const gpu::Device& device)
-{
-    return {device.info().name, device.info().driver, processor(), GNOMON_VERSION_TEXT, std::string(commit())};
-}
-
 void Results::add(const std::string& line, const fs::path& file, size_t number)
 {
+    base::check_json_depth(line, file.string());
     Json json = Json::parse(line, nullptr, false);
     if (!is_result(json))
         base::fail(
@@ -139,14 +130,6 @@ std::string cell_name(const Experiment& experiment, const Cell& cell)
     for (const std::string& column : identity_columns()) out += (out.empty() ? "" : ", ") + cell.columns.at(column);
     for (const std::string& axis : experiment.axes) out += fmt::format(", {}={}", axis, cell.columns.at(axis));
     return out;
-}
-
-fs::path default_results_folder(const std::string& device, const Experiment& experiment)
-{
-    std::string name;
-    for (const char c : device.substr(0, device.find(" (")))
-        name += std::isalnum(static_cast<unsigned char>(c)) ? char(std::tolower(static_cast<unsigned char>(c))) : '_';
-    return project_root() / "experiments" / "results" / name / experiment.name;
 }
 
 std::optional<double> Row::number(const std::string& column) const

@@ -104,6 +104,7 @@ template <class Out> void apply_sparse(Document& document, const Accessor& a, Ou
 
 template <class Out> void read(Document& document, const Accessor& a, Out* out)
 {
+    document.take_read(a.count * uint64_t(a.width));
     if (a.bytes.empty())
         std::fill_n(out, a.count * size_t(a.width), Out(0));
     else
@@ -123,11 +124,12 @@ Accessor open_accessor(Document& document, const Value& reference, std::initiali
     Accessor a{value, 0, shape->width, component_of(value), value.flag_or("normalized", false), {}, 0};
     const uint64_t count = value.at("count").integer();
     const size_t element = size_t(a.width) * component_size(a.component);
-    // Without a buffer view nothing but this bounds the memory that a wrong count takes.
-    constexpr uint64_t most_without_data = 1 << 24;
     const bool stored = bool(value.find("bufferView"));
-    if (count > (stored ? std::numeric_limits<uint32_t>::max() : most_without_data))
-        value.bad("states {} elements{}, which is too many", count, stored ? "" : " without a buffer view");
+    if (count > std::numeric_limits<uint32_t>::max()) value.bad("states {} elements, which is too many", count);
+    // Without a buffer view nothing but this bounds the memory that a wrong count takes, or a thousand users of it.
+    if (!stored && !document.take_unstored(count * uint64_t(a.width)))
+        value.bad("states {} elements without a buffer view, which is too many; in all, {} such numbers are read", count,
+            Document::most_unstored);
     a.count = size_t(count);
     a.stride = element;
     if (stored) {

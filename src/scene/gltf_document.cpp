@@ -2,6 +2,7 @@
 #include "scene/gltf_document.h"
 
 #include "base/file.h"
+#include "base/json_depth.h"
 
 #include <algorithm>
 #include <cstring>
@@ -50,6 +51,7 @@ Chunks split_glb(std::span<const std::byte> content, const std::string& file)
 nlohmann::json parse(std::span<const std::byte> text, const std::string& file)
 {
     const char* begin = reinterpret_cast<const char*>(text.data());
+    base::check_json_depth({begin, text.size()}, file);
     try {
         return nlohmann::json::parse(begin, begin + text.size());
     } catch (const nlohmann::json::exception& e) {

@@ -35,6 +35,25 @@ public:
     /// What a URI names: the bytes of a data URI, or of a file beside the document.
     std::vector<std::byte> resource(const Value& uri) const;
 
+    static constexpr uint64_t most_unstored = 1 << 24; ///< numbers of accessors without data, of all together
+    /// Counts so many of them; false where they would be too many, and then they are not counted.
+    bool take_unstored(uint64_t numbers)
+    {
+        if (numbers > most_unstored - unstored_) return false;
+        unstored_ += numbers;
+        return true;
+    }
+
+    static constexpr uint64_t most_read = uint64_t(1) << 35; ///< numbers in all: minutes, where a thousand users read one large array
+    void take_read(uint64_t numbers)
+    {
+        read_ += numbers;
+        if (read_ > most_read)
+            base::fail("{}: more than {} numbers would have to be read, because large arrays are used again and again; simplify it with "
+                       "gltfpack",
+                file_, most_read);
+    }
+
     void warn(std::string sentence);
     /// Runs `f`; a DataError becomes a warning that ends in `consequence`. Whether all went well.
     template <class F> bool recover(std::string_view consequence, F&& f)
@@ -70,6 +89,7 @@ private:
     std::map<size_t, Bytes> buffers_, decompressed_;
     std::vector<std::string> warnings_;
     size_t unlisted_warnings_ = 0;
+    uint64_t unstored_ = 0, read_ = 0;
 };
 
 } // namespace gnomon::scene::gltf

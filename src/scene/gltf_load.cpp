@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace gnomon::scene {
 namespace gltf {
@@ -24,7 +25,7 @@ public:
     Scene load();
 
 private:
-    using MeshKey = std::pair<uint64_t, std::vector<float>>; // index in the file, morph weights
+    using MeshKey = std::tuple<uint64_t, int64_t, std::vector<float>>; // index in the file, skin or -1, morph weights
     void place(size_t node);
     std::vector<dmat4> placements(const Value& node, const dmat4& world);
     std::vector<int> meshes_of(const Value& node, const Node& state, bool skinned);
@@ -43,6 +44,7 @@ private:
     static constexpr size_t most_triangles = size_t(1) << 27; ///< a thousand primitives may name one large buffer
     static constexpr size_t most_instances = size_t(1) << 24;
     size_t triangles_ = 0; ///< of all meshes, each counted once
+    size_t placed_ = 0; ///< meshes by nodes, those left out too: each takes its time
     std::vector<bool> mirrored_; ///< an entry an instance: its matrix has a negative determinant
 };
 
@@ -65,8 +67,9 @@ std::vector<dmat4> Loader::placements(const Value& node, const dmat4& world)
     const auto read = [&]<class V>(const char* name, const char* type, std::vector<V>& values) {
         const Value reference = attributes.find(name);
         if (!reference) return;
+        const Value stored = document_.element("accessors", reference);
+        if (!stored.find("bufferView")) stored.bad("has no data"); // and would place its mesh a million times on one spot
         const Accessor accessor = open_accessor(document_, reference, {type});
-        if (accessor.bytes.empty()) accessor.value.bad("has no data"); // and would place its mesh a million times on one spot
         values = read_vectors<V>(document_, accessor);
     };
     read("TRANSLATION", "VEC3", translations);
@@ -110,17 +113,18 @@ std::vector<int> Loader::meshes_of(const Value& node, const Node& state, bool sk
         for (size_t i = 0; i < weights.size(); ++i) deformation.weights.push_back(float(weights[i].number()));
     }
     while (!deformation.weights.empty() && deformation.weights.back() == 0.0f) deformation.weights.pop_back();
-    if (skinned) {
-        deformation.world_from_joint = joint_matrices(document_, document_.element("skins", node.at("skin")), nodes_);
-        return read_mesh(mesh, deformation);
-    }
-    const MeshKey key{reference.integer(), deformation.weights};
-    if (const auto it = shared_.find(key); it != shared_.end()) return it->second;
-    return shared_[key] = read_mesh(mesh, deformation);
+    // A skin puts its mesh into the world whichever node shows it, so that this too is one mesh.
+    const MeshKey key{reference.integer(), skinned ? int64_t(node.at("skin").integer()) : -1, deformation.weights};
+    const auto [it, fresh] = shared_.try_emplace(key);
+    if (!fresh) return it->second;
+    if (skinned) deformation.world_from_joint = joint_matrices(document_, document_.element("skins", node.at("skin")), nodes_);
+    return it->second = read_mesh(mesh, deformation);
 }
 
 void Loader::add_instance(int mesh, const dmat4& world_from_object, size_t node)
 {
+    if (placed_++ == most_instances)
+        base::fail("{}: the file places more than {} meshes; merge them with gltfpack", document_.file(), most_instances);
     const mat4 m(world_from_object);
     const Bounds box = transformed(scene_.meshes[size_t(mesh)].bounds, m);
     const bool finite = glm::all(glm::lessThanEqual(glm::abs(box.min), vec3(farthest)))
@@ -130,8 +134,6 @@ void Loader::add_instance(int mesh, const dmat4& world_from_object, size_t node)
             finite ? "flattens its mesh" : "is not finite"));
         return;
     }
-    if (scene_.instances.size() == most_instances)
-        base::fail("{}: the file places more than {} meshes; merge them with gltfpack", document_.file(), most_instances);
     scene_.instances.push_back({mesh, m});
     mirrored_.push_back(glm::determinant(glm::dmat3(world_from_object)) < 0);
 }
@@ -146,8 +148,9 @@ void Loader::place(size_t index)
     document_.recover("its mesh is left out", [&] {
         // The joints of a skin stand in the world themselves: the node's own transform does not count then.
         const bool skinned = bool(node.find("skin"));
-        const std::vector<dmat4> worlds = skinned ? std::vector<dmat4>{dmat4(1)} : placements(node, state.world);
         const std::vector<int> meshes = meshes_of(node, state, skinned);
+        if (meshes.empty()) return; // a thousand nodes may name a million places for it
+        const std::vector<dmat4> worlds = skinned ? std::vector<dmat4>{dmat4(1)} : placements(node, state.world);
         for (const dmat4& world : worlds)
             for (const int mesh : meshes) add_instance(mesh, world, index);
     });

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_depth.h"
 #include "base/names.h"
 
 #include <algorithm>
@@ -84,9 +85,10 @@ vec3 JsonReader::direction() const
 nlohmann::json read_json(const std::filesystem::path& file)
 {
     const std::string text = base::read_text(file, uint64_t(16) << 20);
+    base::check_json_depth(text, file.string());
     try {
         return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::parse_error& error) {
+    } catch (const nlohmann::json::exception& error) { // parse_error, or out_of_range for 1e999
         // The message carries line and column after a library tag in brackets.
         const std::string what = error.what();
         const size_t tag = what.find("] ");

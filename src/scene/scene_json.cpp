@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gnomon::scene {
 
@@ -137,16 +138,15 @@ template <class T, class Read> void merge(std::vector<T>& models, const JsonRead
 {
     if (!file.has(key)) return;
     std::vector<T> all;
-    const auto taken
-        = [&](const T& entry) { return std::any_of(all.begin(), all.end(), [&](const T& t) { return t.name == entry.name; }); };
+    std::set<std::string> taken;
     const JsonReader list = file.at(key);
     for (size_t i = 0; i < list.array_size(); ++i) {
         T entry = read(list.at(i), i);
-        if (taken(entry)) list.at(i).fail(fmt::format("the name '{}' is there twice", entry.name));
+        if (!taken.insert(entry.name).second) list.at(i).fail(fmt::format("the name '{}' is there twice", entry.name));
         all.push_back(std::move(entry));
     }
     for (T& entry : models)
-        if (!taken(entry)) all.push_back(std::move(entry));
+        if (taken.insert(entry.name).second) all.push_back(std::move(entry));
     models = std::move(all);
 }
 

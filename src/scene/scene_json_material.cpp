@@ -3,6 +3,7 @@
 #include "base/names.h"
 
 #include <algorithm>
+#include <map>
 
 namespace gnomon::scene {
 
@@ -35,15 +36,19 @@ void change_materials(Scene& scene, const JsonReader& list)
 {
     const std::vector<std::string> keys
         = {"name", "alpha", "color", "opacity", "cutoff", "textured", "double_sided", "metallic", "roughness", "transmission"};
-    std::vector<std::string> names;
-    for (const Material& m : scene.materials) names.push_back(m.name);
+    std::map<std::string, std::vector<Material*>> named;
+    for (Material& m : scene.materials) named[m.name].push_back(&m);
     for (size_t i = 0; i < list.array_size(); ++i) {
         const JsonReader entry = list.at(i);
         entry.check_keys(keys);
         const std::string name = entry.at("name").text();
-        if (std::find(names.begin(), names.end(), name) == names.end()) entry.at("name").fail(base::unknown_name("material", name, names));
-        for (Material& m : scene.materials)
-            if (m.name == name) change(m, entry);
+        const auto found = named.find(name);
+        if (found == named.end()) {
+            std::vector<std::string> names;
+            for (const auto& [one, materials] : named) names.push_back(one);
+            entry.at("name").fail(base::unknown_name("material", name, names));
+        }
+        for (Material* m : found->second) change(*m, entry);
     }
 }
 

@@ -46,9 +46,4 @@ std::string refusal(const TechniqueInfo& info, const gpu::Device& device, const 
     return fmt::format("{} does not work with {} lights; it takes {}", info.id, scene::kind_name(light.kind()), claimed);
 }
 
-gpu::ImageId inspection_image(gpu::PassList& passes, const Frame& frame)
-{
-    return passes.transient({VK_FORMAT_R32_SFLOAT, frame.view.size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "inspection"});
-}
-
 } // namespace gnomon::shadow

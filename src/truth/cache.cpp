@@ -7,7 +7,6 @@
 #include "truth/sampling.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 namespace gnomon::truth {
@@ -165,29 +164,6 @@ void prune(const fs::path& folder, uint64_t limit)
         std::error_code ignored;
         if (fs::remove(entries[i].path, ignored)) total -= entries[i].size;
     }
-}
-
-Reference reference(const scene::Scene& s, const scene::View& view, const scene::Light& light, const Settings& settings, Quantity quantity,
-    const fs::path& folder)
-{
-    const fs::path used = folder.empty() ? base::cache_folder() / "truth" : folder;
-    const std::string key = cache_key(s, view, light, settings, quantity);
-    if (std::optional<Reference> found = load(used, key, view.size, channels(quantity, light))) return std::move(*found);
-
-    const Tracer tracer(s);
-    Reference r;
-    const auto begin = std::chrono::steady_clock::now();
-    r.primary = tracer.primary(view, settings.threads);
-    r.visibility = quantity == Quantity::visibility ? tracer.visibility(view, r.primary, light, settings)
-                                                    : tracer.transmittance(view, r.primary, light, settings);
-    r.trace_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    try {
-        store(used, key, r);
-        prune(used, cache_limit);
-    } catch (const base::Error&) {
-        // A folder that cannot be written costs the next run its time, but this one has its result.
-    }
-    return r;
 }
 
 } // namespace gnomon::truth

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_fixture.h"
 
+#include <algorithm>
 #include <thread>
 
 // What a renderer relies on between frames: nothing hidden, any order, any thread, errors that change nothing.
@@ -97,9 +98,10 @@ protected:
 TEST_F(HostLife, NothingIsSubmittedWaitedForOrAllocatedAfterTheFirstFrames)
 {
     const scene::Scene s = floor_and_sheet();
-    const HostScene host = host_scene(s, {}, true);
+    const HostScene with_vertices = host_scene(s, {}, true), without = host_scene(s, {}, false);
     for (const shadow::TechniqueInfo* info : shadow::techniques()) {
         if (info->unavailable && !info->unavailable(device()).empty()) continue;
+        const HostScene& host = info->reads_vertices ? with_vertices : without; // those that do not say so must do without
         counts.submits = counts.waits = counts.allocations = 0;
         const gnomon::Device library(device_info(counted_instance_proc));
         const gnomon::Scene casters(library, host.info);
@@ -108,8 +110,8 @@ TEST_F(HostLife, NothingIsSubmittedWaitedForOrAllocatedAfterTheFirstFrames)
         Commands commands;
         std::vector<uint64_t> flight;
         int allocations = 0;
-        for (uint32_t i = 0; i < 12; ++i) {
-            if (i == 6) allocations = counts.allocations;
+        for (uint32_t i = 0; i < 10; ++i) {
+            if (i == 5) allocations = counts.allocations;
             picture.frame.index = i;
             picture.frame.commands = commands.begin();
             flight.push_back(shadow.record(picture.frame));
@@ -176,7 +178,8 @@ TEST_F(HostLife, ObjectsGoInAnyOrder)
         };
         const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
         for (const int what : orders[order]) destroy(what);
-        EXPECT_LT(*std::min_element(picture.values().begin(), picture.values().end()), 0.5f) << "order " << order;
+        const std::vector<float> values = picture.values();
+        EXPECT_LT(*std::min_element(values.begin(), values.end()), 0.5f) << "order " << order;
     }
 }
 
@@ -257,7 +260,7 @@ TEST_F(HostLife, WrongInputIsASentenceAndChangesNothing)
     const uint64_t ticket = shadow.record(picture.frame); // the same commands are as good as before
     Commands::finish(picture.frame.commands);
     library.retire(ticket);
-    EXPECT_LT(mean(picture.values()), 0.95);
+    EXPECT_LT(mean(picture.values()), 0.99);
 }
 
 TEST_F(HostLife, TheCullingCallbackDecidesWhoCasts)
@@ -286,8 +289,8 @@ TEST_F(HostLife, TheCullingCallbackDecidesWhoCasts)
     const double without = mean(once(library, shadow, picture, commands));
     EXPECT_GT(asked.floor, 0);
     EXPECT_GT(asked.sheet, 0);
-    EXPECT_LT(with, 0.95);
-    EXPECT_GT(without, with + 0.02);
+    EXPECT_LT(with, 0.99);
+    EXPECT_EQ(without, 1.0);
 }
 
 } // namespace gnomon::gpu

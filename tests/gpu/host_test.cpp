@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_fixture.h"
 
-#include <thread>
-
 // The library as an engine uses it: handles in, an image out, against the same technique in Gnomon's own frame.
 namespace gnomon::gpu {
 

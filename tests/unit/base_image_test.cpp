@@ -110,6 +110,40 @@ TEST_F(BaseImage, exr_round_trips_every_float_and_orders_rgb_first)
     EXPECT_EQ(after.values, before.values);
 }
 
+TEST_F(BaseImage, headers_that_promise_more_than_the_file_holds_are_refused)
+{
+    const auto refusal = [](const std::vector<std::byte>& file) -> std::string {
+        try {
+            decode_rgba8(file, "picture");
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "decoded";
+    };
+    write_png(folder / "p.png", gradient({64, 48}, 3), Encoding::linear);
+    const std::vector<std::byte> whole = read_file(folder / "p.png");
+    const auto changed = [&](size_t at, std::initializer_list<int> values) {
+        std::vector<std::byte> bytes = whole;
+        for (const int v : values) bytes.at(at++) = std::byte(v);
+        return bytes;
+    };
+    EXPECT_EQ(refusal(whole), "decoded");
+    EXPECT_NE(refusal(changed(16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})).find("268435456 pixels"), std::string::npos) << "of the header";
+    EXPECT_NE(refusal(changed(33, {0x3f, 0xff, 0xff, 0xff})).find("within the chunk at byte 33"), std::string::npos) << "of the pixels";
+
+    // A JPEG with a table of 16 times 17 Huffman codes, where 256 have room; and one of many scans.
+    std::vector<std::byte> tables
+        = {std::byte(0xff), std::byte(0xd8), std::byte(0xff), std::byte(0xc4), std::byte(1), std::byte(35), std::byte(0)};
+    tables.resize(tables.size() + 16 + 272, std::byte(17));
+    EXPECT_NE(refusal(tables).find("256 codes"), std::string::npos) << refusal(tables);
+    tables.insert(tables.begin(), std::byte(0xff));
+    EXPECT_NE(refusal(tables).find("begins with no mark"), std::string::npos) << refusal(tables);
+    std::vector<std::byte> scans = {std::byte(0xff), std::byte(0xd8)};
+    for (int i = 0; i < 101; ++i) scans.insert(scans.end(), {std::byte(0xff), std::byte(0xda), std::byte(0), std::byte(2)});
+    EXPECT_NE(refusal(scans).find("100 scans"), std::string::npos) << refusal(scans);
+    EXPECT_NE(refusal(std::vector<std::byte>(50, std::byte('B'))).find("give a PNG or JPEG"), std::string::npos);
+}
+
 TEST_F(BaseImage, damaged_png_is_refused)
 {
     write_png(folder / "p.png", gradient({64, 48}, 3), Encoding::linear);

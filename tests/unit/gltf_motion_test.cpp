@@ -130,6 +130,17 @@ TEST(gltf_motion, skin)
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(gltf_motion, nodes_with_one_skin_share_its_mesh)
+{
+    GltfBuilder b = skinned();
+    b.node({{"mesh", 0}, {"skin", 0}});
+    b.node({{"mesh", 0}, {"skin", b.push("skins", {{"joints", {1, 1}}})}});
+    const Scene scene = b.load();
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(scene.instances[0].mesh, scene.instances[1].mesh) << "which else would be read a thousand times for a thousand nodes";
+    EXPECT_NE(scene.instances[0].mesh, scene.instances[2].mesh);
+}
+
 TEST(gltf_motion, a_mirrored_skin_keeps_its_outside)
 {
     GltfBuilder b = skinned();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken input ends in an Error or a warning: never in a crash, a hang or memory without bound.
+#include "fuzz/sound.h"
 #include "gltf_builder.h"
 
 #include <chrono>
@@ -29,33 +30,7 @@ std::vector<fs::path> gltf_files(const fs::path& folder)
     return out;
 }
 
-/// What the rest of the program relies on.
-void expect_sound(const Scene& scene, const std::string& what)
-{
-    SCOPED_TRACE(what);
-    ASSERT_FALSE(scene.materials.empty());
-    ASSERT_FALSE(scene.instances.empty());
-    for (const Mesh& mesh : scene.meshes) {
-        ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
-        ASSERT_TRUE(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
-        ASSERT_TRUE(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
-        ASSERT_EQ(mesh.indices.size() % 3, 0u);
-        ASSERT_TRUE(mesh.material >= 0 && size_t(mesh.material) < scene.materials.size());
-        for (const uint32_t i : mesh.indices) ASSERT_LT(i, mesh.positions.size());
-        for (const vec3& p : mesh.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
-        for (const vec3& n : mesh.normals) ASSERT_NEAR(glm::length(n), 1.0f, 1e-3f);
-    }
-    for (const Instance& instance : scene.instances) {
-        ASSERT_TRUE(instance.mesh >= 0 && size_t(instance.mesh) < scene.meshes.size());
-        ASSERT_GT(glm::determinant(mat3(instance.world_from_object)), 0.0f);
-    }
-    const int textures = int(scene.textures.size());
-    for (const Material& m : scene.materials)
-        ASSERT_TRUE(m.base_color_texture.texture < textures && m.emissive_texture.texture < textures
-            && m.metallic_roughness_texture.texture < textures);
-    for (const Texture& t : scene.textures) ASSERT_EQ(t.rgba.size(), size_t(t.width) * size_t(t.height) * 4);
-    ASSERT_TRUE(std::isfinite(scene.bounds().radius()));
-}
+void expect_sound(const Scene& scene, const std::string& what) { EXPECT_EQ(unsound(scene), "") << what; }
 
 /// Loads; an Error must name the file in one line. Whether there is a scene.
 bool loads_or_explains(const fs::path& file, const LoadOptions& options = {})
@@ -277,6 +252,34 @@ TEST(gltf_robustness, changed_numbers)
         ++number;
     }
     EXPECT_GT(number, 100u);
+}
+
+TEST(gltf_robustness, places_for_nothing_cost_nothing)
+{
+    GltfBuilder b;
+    b.triangle();
+    b.node({{"mesh", 0}});
+    const int broken = b.mesh({{"attributes", {{"POSITION", 99}}}});
+    const json places = {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", b.vec3s(std::vector<vec3>(200000))}}}}}};
+    for (int i = 0; i < 2000; ++i) b.node({{"mesh", broken}, {"extensions", places}});
+    EXPECT_EQ(b.load().instances.size(), 1u) << "and not after four hundred million matrices";
+}
+
+TEST(gltf_robustness, elements_without_data_are_counted_together)
+{
+    GltfBuilder b;
+    b.triangle();
+    b.node({{"mesh", 0}});
+    const size_t most = size_t(1) << 24;
+    json& accessor = b.doc["accessors"][size_t(
+        b.push("accessors", {{"type", "VEC3"}, {"componentType", 5126}, {"count", most / 8}, {"sparse", json()}}))];
+    accessor["sparse"] = {{"count", 1}, {"indices", {{"bufferView", b.view<uint32_t>({0})}, {"componentType", 5125}}},
+        {"values", {{"bufferView", b.view<float>({1, 2, 3})}}}};
+    const json primitive = {{"attributes", {{"POSITION", 1}}}};
+    b.node({{"mesh", b.push("meshes", {{"primitives", json(1000, primitive)}})}});
+    const Scene scene = b.load();
+    EXPECT_EQ(scene.meshes.size(), 1u + 2u) << "three eighths of the most are read twice, not a thousand times";
+    EXPECT_TRUE(any_contains(scene.warnings, "without a buffer view"));
 }
 
 } // namespace

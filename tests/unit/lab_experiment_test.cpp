@@ -122,6 +122,26 @@ TEST(Experiment, GroupsAreMeans)
     EXPECT_THROW(results.add("{}", "file", 3), base::Error);
 }
 
+TEST(Experiment, LinesWithPassesOfAnotherFormAreNoResults)
+{
+    Results results;
+    const auto line = [](const std::string& pass) {
+        return R"({"format": 1, "key": "k", "device": "d", "driver": "v", "commit": "c", "technique": "t", "metrics": {}, "passes": [)"
+            + pass + "]}";
+    };
+    results.add(line(R"({"name": "t/resolve", "ms": 1, "count": 2})"), "file", 1);
+    for (const char* pass : {R"({"name": 5})", R"({"name": "t/resolve", "count": "two"})", R"({"count": -1})", "3"})
+        EXPECT_THROW(results.add(line(pass), "file", 2), base::Error) << pass;
+    EXPECT_THROW(results.add(std::string(100000, '['), "file", 3), base::Error);
+}
+
+TEST(Experiment, NestingIsRefusedBeforeItIsPrinted)
+{
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    EXPECT_THROW(read(R"({"scene": "plane", "techniques": ["shadow_map"], "axes": {"a": [)" + deep + "]}}"), base::Error);
+    EXPECT_THROW(read(R"({"scene": {"scene": "plane", "gltf_scene": 1e300}, "techniques": ["shadow_map"]})"), base::Error);
+}
+
 TEST(Experiment, TablesTakeHeadingsAndPublishedRows)
 {
     const std::string head = R"({"scene": "balls", "size": "16x8", "axes": {"kernel": [1, 3]}, )" + techniques

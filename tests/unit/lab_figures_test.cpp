@@ -66,6 +66,10 @@ TEST(Figures, WhatCannotBeReadIsASentenceThatNamesThePlace)
     EXPECT_NE(refusal(figure(R"("panels": [{"technique": "truth", "size": "10"}])")).find("WIDTHxHEIGHT"), std::string::npos);
     EXPECT_NE(
         refusal(figure(R"("panels": [{"technique": "shadow_map", "show": "filter_error"}])")).find("no reference"), std::string::npos);
+    EXPECT_NE(refusal(figure(R"("columns": 1e300, "panels": [{"technique": "truth"}])")).find("columns"), std::string::npos);
+    EXPECT_NE(refusal(figure(R"("panels": [{"technique": "truth", "crop": [0, 0, 1e300, 1]}])")).find("crop"), std::string::npos);
+    EXPECT_NE(refusal(figure(R"("panels": [{"technique": "truth", "gain": -1}])")).find("gain"), std::string::npos);
+    EXPECT_NE(refusal(figure(R"("panels": [{"technique": "truth", "slice_up": [0, 1e300, 0]}])")).find("slice_up"), std::string::npos);
     EXPECT_NE(refusal(R"({"figures": [{"id": "../a", "panels": [{"technique": "truth"}]}]})").find("cannot be the id"), std::string::npos);
 }
 

@@ -190,6 +190,7 @@ TEST_F(SceneJson, ErrorsNameFilePlaceAndWayOut)
     for (const Bad& bad : table) EXPECT_NE(error_of(bad.text).find(bad.says), std::string::npos) << bad.text << "\n" << error_of(bad.text);
     EXPECT_NE(error_of(R"({"model": 3})").find("scene.json"), std::string::npos);
     EXPECT_NE(error_of(std::string(100000, '[')).find("no JSON"), std::string::npos);
+    EXPECT_NE(error_of(R"({"model": "plane", "time": 1e999})").find("no JSON: "), std::string::npos) << "a number that no double holds";
     EXPECT_THROW(load_scene_json(folder_ / "missing.json"), base::Error);
 }
 

@@ -31,7 +31,7 @@ void scan_rows(ivec2 size)
     // Not gl_SubgroupSize: a driver may leave lanes of a subgroup out.
     const uvec4 present = subgroupBallot(true);
     const int lanes = int(subgroupBallotBitCount(present)), lane = int(subgroupBallotExclusiveBitCount(present));
-    const uint last = subgroupBallotFindMSB(present);
+    const uint last = subgroupMax(gl_SubgroupInvocationID);
     const int first = int(gl_WorkGroupID.x) * rows_per_group, layer = int(gl_WorkGroupID.y);
     const int end = min(first + rows_per_group, size.y);
     for (int y = first + int(gl_SubgroupID); y < end; y += int(gl_NumSubgroups)) {

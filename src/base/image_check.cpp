@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/image_check.h"
+
+#include <fmt/format.h>
+
+namespace gnomon::base {
+
+namespace {
+
+// DEFLATE packs at most 1032 bytes into one, and a byte of a PNG holds at most 8 pixels. A JPEG's block of 8x8 takes a bit at least, and
+// with one component four times as wide as stored and another four times as high there is one block for 128 pixels.
+constexpr uint64_t densest_png = 1032 * 8, densest_jpeg = 128 * 8;
+constexpr int most_scans = 100; ///< progressive files have about ten; each costs a pass over all pixels, be it empty
+
+uint8_t byte_at(std::span<const std::byte> file, size_t at) { return at < file.size() ? uint8_t(file[at]) : uint8_t(0); }
+
+/// Two bytes; a JPEG segment's length counts them.
+size_t length_at(std::span<const std::byte> file, size_t at) { return size_t(byte_at(file, at)) << 8 | byte_at(file, at + 1); }
+
+/// Whether the codes of every table in the segment of Huffman tables at `at` are as many as the standard allows.
+bool sound_tables(std::span<const std::byte> file, size_t at)
+{
+    const size_t end = at + length_at(file, at);
+    for (at += 2; at < end;) {
+        size_t codes = 0;
+        for (size_t i = 1; i <= 16; ++i) codes += byte_at(file, at + i);
+        if (codes > 256) return false;
+        at += 17 + codes;
+    }
+    return true;
+}
+
+std::string unfit_png(std::span<const std::byte> file)
+{
+    for (size_t at = 8; at + 8 <= file.size();) {
+        const size_t length = length_at(file, at) << 16 | length_at(file, at + 2);
+        if (length > file.size() - at - 8) return fmt::format("ends within the chunk at byte {}", at);
+        at += length + 12; // length, name, data, checksum
+    }
+    return {};
+}
+
+std::string unfit_jpeg(std::span<const std::byte> file)
+{
+    constexpr uint8_t huffman_tables = 0xc4, start_of_scan = 0xda, start_of_image = 0xd8;
+    // The decoder also takes files with fill bytes before their first mark, which would put this walk out of step.
+    if (byte_at(file, 1) != start_of_image) return "begins with no mark of a JPEG";
+    int scans = 0;
+    // Segments are walked up to the first scan. From there on every mark counts: compressed data cannot hold one.
+    for (size_t at = 2; at + 1 < file.size();) {
+        const uint8_t mark = byte_at(file, at + 1);
+        if (byte_at(file, at) != 0xff || mark == 0xff) {
+            ++at;
+            continue;
+        }
+        at += 2;
+        if (mark == huffman_tables && !sound_tables(file, at)) return "has Huffman tables of more than 256 codes";
+        if (mark == start_of_scan && ++scans > most_scans) return fmt::format("has more than {} scans", most_scans);
+        if (scans == 0) at += length_at(file, at);
+    }
+    return {};
+}
+
+bool is_jpeg(std::span<const std::byte> file) { return byte_at(file, 0) == 0xff; }
+
+} // namespace
+
+std::string unfit_form(std::span<const std::byte> file)
+{
+    constexpr uint8_t first_of_png = 0x89;
+    return is_jpeg(file) ? unfit_jpeg(file) : byte_at(file, 0) == first_of_png ? unfit_png(file) : std::string();
+}
+
+std::string unfit_size(std::span<const std::byte> file, uint64_t pixels)
+{
+    if (pixels <= file.size() * (is_jpeg(file) ? densest_jpeg : densest_png)) return {};
+    return fmt::format("states {} pixels, more than {} bytes can hold", pixels, file.size());
+}
+
+} // namespace gnomon::base
