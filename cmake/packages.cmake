@@ -12,12 +12,13 @@ set(CPACK_COMPONENTS_ALL library development)
 if(TARGET gnomon)
   list(APPEND CPACK_COMPONENTS_ALL program)
 endif()
-set(CPACK_ARCHIVE_FILE_NAME gnomon-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_PACKAGE_FILE_NAME gnomon-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
 
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 get_target_property(soversion gnomon_shared SOVERSION)
 
@@ -34,7 +35,6 @@ macro(debian_package component name section description)
 endmacro()
 debian_package(library libgnomon${soversion} libs "Real-time shadows for renderers that use Vulkan: library
  Records the shadow of one light into the command buffer of a renderer.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 debian_package(development libgnomon-dev libdevel "Real-time shadows for renderers that use Vulkan: headers
  Headers for C and C++, the CMake package and the pkg-config file."
   DEPENDS "libgnomon${soversion} (= ${PROJECT_VERSION}), libvulkan-dev (>= 1.3)")
