@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace {
@@ -269,10 +271,31 @@ int run(int argc, char** argv)
     return cli::convert(convert);
 }
 
+constexpr const char* out_of_memory = "gnomon: out of memory; try a smaller --size, --detail or scene\n";
+
+/// JSON values ask for memory in their destructors, which may not throw.
+[[noreturn]] void at_terminate()
+{
+    std::set_terminate([] { // where nothing can be caught, `throw` comes here
+        std::fputs("gnomon: internal fault in a place that cannot report it; please report it with the command line\n", stderr);
+        std::abort();
+    });
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        std::fputs(out_of_memory, stderr);
+        std::_Exit(1);
+    } catch (...) {
+    }
+    std::fputs("gnomon: internal fault in a place that cannot report it; please report it with the command line\n", stderr);
+    std::abort();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    std::set_terminate(at_terminate);
     // 1: what was asked cannot be done; 2: it was not understood; 3: a fault of the program
     try {
         return run(argc, argv);
@@ -283,7 +306,7 @@ int main(int argc, char** argv)
         fmt::print(stderr, "gnomon: {}\n", e.what());
         return 1;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "gnomon: out of memory; try a smaller --size, --detail or scene\n");
+        std::fputs(out_of_memory, stderr);
         return 1;
     } catch (const std::exception& e) {
         fmt::print(stderr, "gnomon: internal fault: {}; please report it with the command line\n", e.what());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 
 namespace gnomon::truth {
 
@@ -68,7 +69,11 @@ Geometry::Geometry(const scene::Scene& s, size_t flatten_limit)
     })
 {
     const auto begin = std::chrono::steady_clock::now();
-    if (!device_) base::fail("Embree cannot start (error {}); ray-traced truth needs a CPU with SSE2", int(rtcGetDeviceError(nullptr)));
+    if (!device_) {
+        const RTCError error = rtcGetDeviceError(nullptr);
+        if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+        base::fail("Embree cannot start (error {}); ray-traced truth needs a CPU with SSE2", int(error));
+    }
     std::vector<int> uses(s.meshes.size());
     size_t total = 0;
     for (const scene::Instance& i : s.instances) {

@@ -110,9 +110,6 @@ protected:
     std::chrono::steady_clock::time_point begin_;
 };
 
-/// Every call in a full run; in a short one so many, spread evenly.
-uint64_t step_of(uint64_t calls, uint64_t short_runs) { return at_full_length() ? 1 : std::max<uint64_t>(1, calls / short_runs); }
-
 TEST_P(DeviceFaults, OutOfMemoryAtAnyCallIsASentenceAndTheDeviceGoesOn)
 {
     uint64_t calls = 0, tried = 0;

@@ -111,7 +111,7 @@ template <class Handle> struct Wrapped<void(VKAPI_PTR*)(VkDevice, Handle, const 
 #define GNOMON_TAG(function, submits, makes)                                                                                               \
     struct Tag_##function {                                                                                                                \
         static constexpr const char* name = #function;                                                                                     \
-        static constexpr bool queue = submits, maker = makes;                                                                           \
+        static constexpr bool queue = submits, maker = makes;                                                                              \
         static inline PFN_##function next = nullptr;                                                                                       \
     };
 GNOMON_FALLIBLE(GNOMON_TAG)
@@ -197,8 +197,7 @@ void FaultDriver::forget() { live_.clear(); }
 std::unique_ptr<gpu::Device> adopt_with_faults(const gpu::Device& below)
 {
     next_instance = ::vkGetInstanceProcAddr;
-    gpu::AdoptedDevice given{
-        below.instance(), below.physical(), below.handle(), below.queue(), below.queue_family(), look_up_instance, {}};
+    gpu::AdoptedDevice given{below.instance(), below.physical(), below.handle(), below.queue(), below.queue_family(), look_up_instance, {}};
     for (const char* name : {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
              VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME, VK_EXT_MESH_SHADER_EXTENSION_NAME,
              VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME})

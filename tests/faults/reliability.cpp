@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace gnomon::tests {
@@ -14,6 +15,13 @@ std::optional<fs::path> results_folder()
     const char* folder = std::getenv("GNOMON_RELIABILITY");
     if (!folder || !*folder) return {};
     return fs::path(folder);
+}
+
+uint64_t step_of(uint64_t places, uint64_t short_runs)
+{
+    const char* step = std::getenv("GNOMON_RELIABILITY_STEP");
+    if (at_full_length()) return step ? std::max<uint64_t>(1, std::strtoull(step, nullptr, 10)) : 1;
+    return std::max<uint64_t>(1, places / short_runs);
 }
 
 void record(const std::string& file, const nlohmann::ordered_json& row)

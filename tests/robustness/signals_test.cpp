@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -27,28 +28,34 @@ std::vector<Command> commands()
         words.insert(words.end(), small.begin(), small.end());
         return words;
     };
-    return {
+    std::vector<Command> out = {
         {"render", with({"render", "contact", "--samples", "16", "--aov", "depth,normal", "-o", "out/a.png"})},
         {"truth", with({"truth", "contact", "--light", "sun,angle=4", "--samples", "2048", "-o", "out/a.exr"})},
         {"compare", with({"compare", "contact", "--techniques", "shadow_map,pcf,vsm", "--truth-samples", "64", "-o", "out"})},
         {"bench", with({"bench", "contact", "--techniques", "shadow_map,pcf", "--repeats", "20"})},
         {"slice", with({"slice", "contact", "--truth", "-o", "out/a.png"})},
+    };
+    // These take long; shorter tests of their own interrupt the first two.
+    const std::vector<Command> long_ones = {
         {"advise", {"advise", "contact", "--size", "64x48", "-o", "out/a.md"}},
         {"tune",
             {"tune", "shadow_map", source_root() / "experiments/tuning/boards.json", "--vary", "constant_bias", "--size", "48x32",
                 "--budget", "6", "-o", "out/a.json"}},
         {"docs", {"docs", "--check"}},
     };
+    if (at_full_length()) out.insert(out.end(), long_ones.begin(), long_ones.end());
+    return out;
 }
 
 /// Files end as their formats do, so that half of one is seen.
 void expect_whole(const fs::path& file)
 {
     const std::string text = read_whole(file), kind = file.extension();
-    if (kind == ".png") EXPECT_EQ(text.substr(std::max<size_t>(text.size(), 8) - 8, 4), "IEND") << file;
-    if (kind == ".html") EXPECT_NE(text.find("</html>"), std::string::npos) << file;
-    if (kind == ".json") EXPECT_EQ(text.substr(std::max<size_t>(text.size(), 2) - 2), "}\n") << file;
-    if (kind == ".exr") EXPECT_GT(text.size(), 1000u) << file;
+    const std::string end = text.substr(text.size() - std::min<size_t>(text.size(), 8));
+    EXPECT_TRUE(kind != ".png" || end.starts_with("IEND")) << file;
+    EXPECT_TRUE(kind != ".html" || text.find("</html>") != std::string::npos) << file;
+    EXPECT_TRUE(kind != ".json" || end.ends_with("}\n")) << file;
+    EXPECT_TRUE(kind != ".exr" || text.size() > 200) << file;
     EXPECT_NE(kind, ".tmp") << file << " is left";
 }
 
@@ -69,7 +76,7 @@ TEST_P(Signals, EndItAtOnceAndLeaveNothingInPart)
     RunOptions options{.environment = {{"TMPDIR", scratch / "tmp"}, {"GNOMON_ROOT", source_root()}}, .seconds = 300};
     const Finished whole = run_gnomon(GetParam().words, scratch.folder(), options);
     ASSERT_EQ(whole.code, 0) << whole.err;
-    const int runs = at_full_length() ? 24 : 2;
+    const int runs = at_full_length() ? std::max(2, int(24 / step_of(1, 1))) : 2;
     int ended = 0;
     for (int i = 0; i < runs; ++i) {
         fs::remove_all(scratch / "out");
@@ -81,7 +88,7 @@ TEST_P(Signals, EndItAtOnceAndLeaveNothingInPart)
         options.kill_signal = i % 2 ? SIGTERM : SIGINT;
         const Finished f = run_gnomon(GetParam().words, scratch.folder(), options);
         EXPECT_TRUE(f.code == 0 || f.signal == options.kill_signal) << "code " << f.code << ", signal " << f.signal << ": " << f.err;
-        EXPECT_LT(f.seconds, moment + 5) << "it went on";
+        EXPECT_LT(f.seconds, moment + 20) << "it went on";
         ended += f.signal != 0;
         for (const fs::directory_entry& e : fs::recursive_directory_iterator(scratch.folder()))
             if (e.is_regular_file()) expect_whole(e.path());
