@@ -37,15 +37,15 @@ int export_shaders(const Export& options)
 {
     const lab::Language language = lab::parse_language(options.language);
     const lab::Choice choice = choice_of(options);
-    const lab::Stage stage = lab::open_stage(
-        {.scene = options.scene, .lights = {light_of(options, *choice.info)}, .size = lab::parse_size(options.size)});
+    const lab::Stage stage
+        = lab::open_stage({.scene = options.scene, .lights = {light_of(options, *choice.info)}, .size = lab::parse_size(options.size)});
     const auto device = open_device(options.common);
     const lab::Exported exported = lab::export_technique(*device, stage, choice, language);
     demand_valid(*device);
     lab::write_export(exported, options.output);
 
-    nlohmann::ordered_json json = {{"folder", options.output}, {"files", nlohmann::ordered_json::array()},
-        {"refused", nlohmann::ordered_json::object()}};
+    nlohmann::ordered_json json
+        = {{"folder", options.output}, {"files", nlohmann::ordered_json::array()}, {"refused", nlohmann::ordered_json::object()}};
     size_t shaders = 0;
     for (const auto& [file, content] : exported.files) {
         json["files"].push_back(file);

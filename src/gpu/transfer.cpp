@@ -35,7 +35,8 @@ void require_queue(const Context& c)
 }
 
 /// `changed`, one of the two, is in device memory; its state follows only once the commands are through.
-void copy_buffer(Context& c, const std::string& about, const Buffer& from, const Buffer& to, const VkBufferCopy& region, const Buffer& changed)
+void copy_buffer(
+    Context& c, const std::string& about, const Buffer& from, const Buffer& to, const VkBufferCopy& region, const Buffer& changed)
 {
     const Use use = &changed == &to ? Use::copy_to : Use::copy_from;
     BufferState state = changed.state();

@@ -197,7 +197,7 @@ Exported export_technique(gpu::Device& device, const Stage& stage, const Choice&
     const shadow::TechniqueInfo& info = *choice.info;
     const scene::Light& light = stage.lights.front();
     if (const std::string reason = shadow::refusal(info, device, light); !reason.empty()) base::fail("{}", reason);
-    Json recipe = {{"generator", "gnomon " GNOMON_VERSION}, {"format", 1},
+    Json recipe = {{"generator", "gnomon " GNOMON_VERSION_TEXT}, {"format", 1},
         {"technique", {{"id", info.id}, {"title", info.title}, {"cite", info.cite}, {"output", output_name(output_of(choice))}}},
         {"language", language_name(language)}, {"light", scene::kind_name(light.kind())}, {"scene", stage.scene_name},
         {"view", {stage.view.size.width, stage.view.size.height}}, {"temporal", info.temporal}, {"parameters", parameters_json(choice)}};
