@@ -110,7 +110,7 @@ std::vector<fs::path> update_docs(const fs::path& root, bool check)
     update(root / "techniques" / "README.md", {{"techniques", overview_table()}});
     for (const fs::path& file : update_thumbnails(root, check)) changed.push_back(file);
     for (const fs::path& file : update_result_pages(root, check)) changed.push_back(file);
-    if (const fs::path file = root / "presets" / "quality.json"; fs::exists(file)) {
+    if (const fs::path file = root / "src" / "shadow" / "quality.json"; fs::exists(file)) {
         const std::string priced = priced_qualities(root);
         if (priced != base::read_text(file)) {
             changed.push_back(file);

@@ -18,7 +18,7 @@ nlohmann::ordered_json qualities_json();
 std::string qualities_text(); ///< for a terminal
 std::string qualities_page(const shadow::QualityTable&); ///< a table in Markdown for each kind of light
 
-/// The text of presets/quality.json with its prices as the results of experiments/quality say, which lie below experiments/results.
+/// The text of src/shadow/quality.json with its prices as the results of experiments/quality say, which lie below experiments/results.
 /// Throws base::Error where an entry or the baseline was not measured.
 std::string priced_qualities(const std::filesystem::path& root);
 

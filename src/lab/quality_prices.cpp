@@ -89,7 +89,7 @@ Json price_of(const std::vector<Json>& runs, const shadow::Quality& q, const sha
 
 std::string priced_qualities(const fs::path& root)
 {
-    Json json = Json::parse(base::read_text(root / "presets" / "quality.json"));
+    Json json = Json::parse(base::read_text(root / "src" / "shadow" / "quality.json"));
     const shadow::QualityTable table = shadow::parse_qualities(json.dump());
     const shadow::TechniqueInfo& baseline = shadow::technique("shadow_map");
     std::set<std::string> devices;

@@ -10,7 +10,7 @@
 #include <vector>
 
 // Ready choices: for every kind of light a technique with parameters at each of four levels, and what it costs and errs
-// (presets/quality.json, which is part of the library; docs/quality.md).
+// (src/shadow/quality.json, which is part of the library; docs/quality.md).
 namespace gnomon::shadow {
 
 enum class Level : uint8_t { low, medium, high, exact };
@@ -45,7 +45,7 @@ struct QualityTable {
 
 /// The table that this library was built with.
 const QualityTable& qualities();
-/// From the text of presets/quality.json. Throws base::Error where an entry names what does not exist, or a technique that does not
+/// From the text of src/shadow/quality.json. Throws base::Error where an entry names what does not exist, or a technique that does not
 /// claim its light.
 QualityTable parse_qualities(const std::string& text);
 
