@@ -72,7 +72,7 @@ TEST(Quality, each_level_costs_more_and_errs_less_as_measured)
 
 TEST(Quality, prices_are_those_of_the_committed_results)
 {
-    EXPECT_EQ(lab::priced_qualities(tests::source_root()), base::read_text(tests::source_root() / "presets" / "quality.json"))
+    EXPECT_EQ(lab::priced_qualities(tests::source_root()), base::read_text(tests::source_root() / "src" / "shadow" / "quality.json"))
         << "run `gnomon docs`";
     EXPECT_NE(lab::qualities_text().find(qualities().measured), std::string::npos);
     EXPECT_EQ(lab::qualities_json()["entries"].size(), qualities().entries.size());
