@@ -173,6 +173,17 @@ GNOMON_API gnomon_result gnomon_shadow_create(gnomon_scene, const char* techniqu
 GNOMON_API void gnomon_shadow_destroy(gnomon_shadow);
 GNOMON_API gnomon_result gnomon_shadow_set(gnomon_shadow, const char* settings);
 
+/* A ready choice: the arguments of gnomon_shadow_create, and their price as it was measured (docs/quality.md); below 0: not measured. */
+typedef struct gnomon_choice {
+    char technique[64], settings[512];
+    double time; /* as a multiple of shadow_map with its defaults, under the same light shrunk to a point */
+    double error; /* mean absolute error of the visibility, of 1 */
+    double mebibytes;
+} gnomon_choice;
+enum { GNOMON_LOW = 0, GNOMON_MEDIUM = 1, GNOMON_HIGH = 2, GNOMON_EXACT = 3 };
+/* The first choice of that level for the light's kind, with an area or without, that this device can run. */
+GNOMON_API gnomon_result gnomon_choose(gnomon_device, uint32_t level, const gnomon_light*, gnomon_choice*);
+
 typedef struct gnomon_image {
     VkImage image; /* 2D; its first level and layer are used */
     VkFormat format;

@@ -65,6 +65,12 @@ struct Device : Owner<gnomon_device, gnomon_device_destroy> {
     }
     void retire(uint64_t ticket) const { gnomon_retire(get(), ticket); }
     uint64_t bytes() const { return gnomon_device_bytes(get()); }
+    gnomon_choice choose(uint32_t level, const gnomon_light& light) const
+    {
+        gnomon_choice out{};
+        check(gnomon_choose(get(), level, &light, &out));
+        return out;
+    }
 };
 
 struct Scene : Owner<gnomon_scene, gnomon_scene_destroy> {

@@ -110,6 +110,15 @@ gnomon_result gnomon_shadow_set(gnomon_shadow shadow, const char* settings)
     });
 }
 
+gnomon_result gnomon_choose(gnomon_device device, uint32_t level, const gnomon_light* light, gnomon_choice* out)
+{
+    return guarded([&] {
+        if (!device || !light || !out)
+            host::refuse(GNOMON_ERROR_ARGUMENT, "gnomon_choose needs a device, a light and a place for the choice");
+        *out = host::choose(*device->device, level, *light);
+    });
+}
+
 gnomon_result gnomon_record(gnomon_shadow shadow, const gnomon_frame* frame, uint64_t* ticket)
 {
     return guarded([&] {

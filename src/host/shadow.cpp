@@ -3,8 +3,10 @@
 
 #include "host/receivers.h"
 #include "host/result.h"
+#include "shadow/quality.h"
 
 #include <sstream>
+#include <stdexcept>
 
 namespace gnomon::host {
 
@@ -32,6 +34,26 @@ std::vector<vec4> planes_of(const shadow::Planes& planes, const dmat4& world_fro
 }
 
 } // namespace
+
+gnomon_choice choose(const Device& device, uint32_t level, const gnomon_light& light)
+{
+    if (level >= uint32_t(shadow::level_count))
+        refuse(GNOMON_ERROR_ARGUMENT, "level {} was asked for; the levels are 0 (low) to {} (exact)", level, shadow::level_count - 1);
+    const shadow::Quality& quality = shadow::choose_quality(shadow::Level(level), *device.gpu, light_of(light, dmat4(1.0)));
+    const shadow::ParamValues defaults(quality.technique->params());
+    std::string settings;
+    for (const shadow::ParamInfo& field : quality.params.table().fields)
+        if (quality.params.text(field) != defaults.text(field))
+            settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", field.name, quality.params.text(field));
+    gnomon_choice out{};
+    if (quality.technique->id.size() >= sizeof(out.technique) || settings.size() >= sizeof(out.settings))
+        throw std::logic_error("a quality level's words are longer than gnomon_choice");
+    quality.technique->id.copy(out.technique, sizeof(out.technique));
+    settings.copy(out.settings, sizeof(out.settings));
+    out.time = quality.price ? quality.price->time : -1.0, out.error = quality.price ? quality.price->mae : -1.0;
+    out.mebibytes = quality.price ? quality.price->mib : -1.0;
+    return out;
+}
 
 Shadow::Shadow(std::shared_ptr<Casters> casters, const char* technique, const char* settings)
     : casters_(std::move(casters))

@@ -6,6 +6,9 @@
 
 namespace gnomon::host {
 
+/// A quality level in the words of gnomon_shadow_create.
+gnomon_choice choose(const Device&, uint32_t level, const gnomon_light&);
+
 /// One technique at work on a host's casters.
 class Shadow {
 public:

@@ -263,6 +263,27 @@ TEST_F(HostLife, WrongInputIsASentenceAndChangesNothing)
     EXPECT_LT(mean(picture.values()), 0.99);
 }
 
+TEST_F(HostLife, QualityLevelsRunAsChosen)
+{
+    const scene::Scene s = floor_and_sheet();
+    const HostScene host = host_scene(s, {}, true);
+    const gnomon::Device library(device_info());
+    const gnomon::Scene casters(library, host.info);
+    Commands commands;
+    for (const char* light : {sun, "disk,position=0/4/0,radius=0.3"}) {
+        Picture picture(s, light);
+        for (uint32_t level = GNOMON_LOW; level <= GNOMON_EXACT; ++level) {
+            const gnomon_choice choice = library.choose(level, picture.frame.light);
+            const gnomon::Shadow shadow(casters, choice.technique, choice.settings);
+            EXPECT_LT(mean(once(library, shadow, picture, commands)), 0.999) << choice.technique << " " << choice.settings;
+            EXPECT_GT(choice.time, 0.0) << light;
+        }
+    }
+    gnomon_choice none{};
+    const Picture picture(s, sun);
+    EXPECT_EQ(gnomon_choose(library.get(), 4, &picture.frame.light, &none), GNOMON_ERROR_ARGUMENT);
+}
+
 TEST_F(HostLife, TheCullingCallbackDecidesWhoCasts)
 {
     const scene::Scene s = floor_and_sheet();
