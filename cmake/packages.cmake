@@ -12,6 +12,9 @@ set(CPACK_COMPONENTS_ALL library development)
 if(TARGET gnomon)
   list(APPEND CPACK_COMPONENTS_ALL program)
 endif()
+if(TARGET gnomon_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_PACKAGE_FILE_NAME gnomon-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
 
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
@@ -41,4 +44,12 @@ debian_package(development libgnomon-dev libdevel "Real-time shadows for rendere
 debian_package(program gnomon graphics "Laboratory for real-time shadows
  Renders, views, compares and measures shadow algorithms against ray-traced truth."
   DEPENDS "libvulkan1" RECOMMENDS "mesa-vulkan-drivers")
+if(TARGET gnomon_python) # an extension is for one minor version of Python
+  get_target_property(python gnomon_python GNOMON_PYTHON_VERSION)
+  string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" python ${python})
+  math(EXPR next "${CMAKE_MATCH_2} + 1")
+  debian_package(python python3-gnomon python "Laboratory for real-time shadows: Python module
+ Renders, traces the truth and compares, with NumPy arrays in and out."
+    DEPENDS "python3 (>= ${python}), python3 (<< ${CMAKE_MATCH_1}.${next}), python3-numpy" RECOMMENDS "mesa-vulkan-drivers")
+endif()
 include(CPack)

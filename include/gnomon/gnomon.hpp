@@ -84,6 +84,10 @@ struct Scene : Owner<gnomon_scene, gnomon_scene_destroy> {
     {
     }
     void move(uint32_t instance, const VkTransformMatrixKHR& m) const { check(gnomon_scene_move(get(), instance, 1, &m)); }
+    void move(uint32_t first, const std::vector<VkTransformMatrixKHR>& m) const
+    {
+        check(gnomon_scene_move(get(), first, uint32_t(m.size()), m.data()));
+    }
     void deform(uint32_t mesh, const float (&lower)[3], const float (&upper)[3]) const
     {
         check(gnomon_scene_deform(get(), mesh, lower, upper));

@@ -64,6 +64,23 @@ GoldenDifference compare_golden(const base::Picture& got, const base::Picture& g
     return out;
 }
 
+namespace {
+
+std::string difference_to_file(const base::Picture& image, const fs::path& golden)
+{
+    if (!fs::exists(golden)) return "new";
+    base::Picture old;
+    try {
+        old = base::read_png(golden, base::Encoding::linear);
+    } catch (const base::Error& e) { // damaged: the new one heals it
+        return fmt::format("new, since {}", e.what());
+    }
+    const GoldenDifference d = compare_golden(image, old);
+    return fmt::format("{} pixels off, largest {}/255, mean {:.6f}", d.off_pixels, d.largest, d.mean);
+}
+
+} // namespace
+
 std::string bless(gpu::Device& device, const shadow::TechniqueInfo& info, const fs::path& folder, const std::string& because)
 {
     if (because.find_first_not_of(" \t") == std::string::npos)
@@ -74,13 +91,7 @@ std::string bless(gpu::Device& device, const shadow::TechniqueInfo& info, const 
     for (const std::string& kind : claimed_kinds(info)) {
         const fs::path file = folder / ("golden." + kind + ".png");
         const base::Picture image = golden_image(device, info, kind, folder);
-        if (!fs::exists(file))
-            out += fmt::format("  {}: new\n", file.filename().string());
-        else {
-            const GoldenDifference d = compare_golden(image, base::read_png(file, base::Encoding::linear));
-            out += fmt::format(
-                "  {}: {} pixels off, largest {}/255, mean {:.6f}\n", file.filename().string(), d.off_pixels, d.largest, d.mean);
-        }
+        out += fmt::format("  {}: {}\n", file.filename().string(), difference_to_file(image, file));
         base::write_png(file, image, base::Encoding::linear);
     }
     for (const Run& run : check_promises(device, info, folder).runs) {

@@ -22,11 +22,11 @@ set_tests_properties(package.install PROPERTIES FIXTURES_REQUIRED "" FIXTURES_SE
 package_test(headers VULKAN=${Vulkan_INCLUDE_DIR})
 package_test(library)
 package_test(consumer)
-package_test(debian CPACK=${CMAKE_CPACK_COMMAND} PROGRAM=$<TARGET_EXISTS:gnomon>)
+package_test(debian CPACK=${CMAKE_CPACK_COMMAND} PROGRAM=$<TARGET_EXISTS:gnomon> PYTHON=$<TARGET_EXISTS:gnomon_python>)
 
 # The example of an engine, built against the prefix and run.
 package_test(host_engine)
 set_tests_properties(package.host_engine PROPERTIES FIXTURES_SETUP host_engine)
 gnomon_program(gnomon_package_tests SOURCES package/host_engine_test.cpp DEPENDS GTest::gtest_main)
 target_compile_definitions(gnomon_package_tests PRIVATE GNOMON_SOURCE="${CMAKE_SOURCE_DIR}" HOST_ENGINE="${package_folder}/host_engine/build/host_engine")
-gtest_discover_tests(gnomon_package_tests DISCOVERY_MODE PRE_TEST PROPERTIES LABELS package FIXTURES_REQUIRED host_engine)
+gtest_discover_tests(gnomon_package_tests DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES LABELS package FIXTURES_REQUIRED host_engine)

@@ -2,16 +2,19 @@
 // Memory, disk and clock as they are on a bad day. The tests load this before the program (LD_PRELOAD), whose own code knows nothing of it:
 //   GNOMON_FAIL_NEW=n      the n-th request for memory after the beginning of main fails
 //   GNOMON_FAIL_WRITE=n    from the n-th write to a file on, the disk is full
+//   GNOMON_READ_ONLY=1     no file or folder can be made, named, or opened to be written
 //   GNOMON_CLOCK=1         the clocks jump: wall time an hour to and fro, the steady clock an hour ahead, once
 //   GNOMON_COUNT=file      two numbers, at the end: requests and writes
 #include <atomic>
 #include <cerrno>
+#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <new>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -64,6 +67,12 @@ void* request_or_throw(std::size_t bytes, std::size_t alignment, const void* cal
     void* p = request(bytes, alignment, caller);
     if (!p) throw std::bad_alloc();
     return p;
+}
+
+bool read_only()
+{
+    static const bool yes = number("GNOMON_READ_ONLY") > 0;
+    return yes && running;
 }
 
 using Main = int(int, char**, char**);
@@ -120,6 +129,29 @@ ssize_t write(int file, const void* data, size_t bytes)
         return -1;
     }
     return ::syscall(SYS_write, file, data, bytes);
+}
+
+int open(const char* name, int flags, ...)
+{
+    va_list more;
+    va_start(more, flags);
+    const mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    if (read_only() && (flags & O_ACCMODE) != O_RDONLY && ours(__builtin_return_address(0))) {
+        errno = EROFS;
+        return -1;
+    }
+    return int(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
+}
+
+int mkdir(const char* name, mode_t mode)
+{
+    struct stat status { };
+    if (read_only() && ours(__builtin_return_address(0))) {
+        errno = ::stat(name, &status) == 0 ? EEXIST : EROFS; // as a real one says
+        return -1;
+    }
+    return int(::syscall(SYS_mkdir, name, mode));
 }
 
 int clock_gettime(clockid_t clock, struct timespec* time)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory, disk, clock and caches as they are on a bad day (tests/preload): a sentence, a code, no part of a file.
+#include "base/error.h"
+#include "base/image_file.h"
 #include "process.h"
 #include "tests/faults/reliability.h"
+#include "tests/source_root.h"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +109,47 @@ TEST(ProgramFaults, ADiskThatIsFullFromAnyWriteOnIsSaid)
             {{"fault", "full disk"}, {"technique", command[0] + " (the program)"}, {"calls", writes}, {"tried", writes}, {"refused", said},
                 {"failures", testing::Test::HasFailure()}});
     }
+}
+
+TEST(ProgramFaults, ADiskThatCannotBeWrittenIsSaid)
+{
+    for (const std::vector<std::string>& command : {truth_command, render_command}) {
+        const Scratch scratch;
+        const Finished f = run_gnomon(command, scratch.folder(), {.environment = preload({{"GNOMON_READ_ONLY", "1"}})});
+        expect_sentence(f, 1, {"Read-only file system", command.back().substr(0, 2)});
+        EXPECT_FALSE(fs::exists(scratch / command.back()));
+        record("faults",
+            {{"fault", "read-only disk"}, {"technique", command[0] + " (the program)"}, {"calls", 1}, {"tried", 1},
+                {"refused", f.code == 1}, {"failures", testing::Test::HasFailure()}});
+    }
+}
+
+TEST(ProgramFaults, ATruncatedGoldenIsNamedAndBlessingHealsIt)
+{
+    const Scratch scratch;
+    const fs::path folder = scratch / "techniques/shadow_map", golden = folder / "golden.directional.png";
+    fs::create_directories(folder.parent_path());
+    fs::copy(source_root() / "techniques/shadow_map", folder);
+    const std::string whole = read_whole(golden);
+    const long cuts = at_full_length() ? 40 : 3;
+    for (long i = 0; i < cuts; ++i) {
+        fs::resize_file(golden, uint64_t(i) * whole.size() / uint64_t(cuts));
+        try {
+            base::read_png(golden, base::Encoding::linear);
+            ADD_FAILURE() << fs::file_size(golden) << " bytes of " << whole.size() << " were taken for a picture";
+        } catch (const base::Error& e) {
+            EXPECT_NE(std::string(e.what()).find(golden.string()), std::string::npos) << e.what();
+        }
+    }
+    const Finished f = run_gnomon({"bless", "shadow_map", "--because", "it was cut"}, scratch.folder(),
+        {.environment = {{"GNOMON_ROOT", scratch.folder()}}, .seconds = 300});
+    if (f.err.find("goldens are made by") != std::string::npos) GTEST_SKIP() << f.err;
+    EXPECT_EQ(f.code, 0) << f.err;
+    EXPECT_NE(f.out.find("golden.directional.png: new, since"), std::string::npos) << f.out;
+    EXPECT_NO_THROW(base::read_png(golden, base::Encoding::linear));
+    record("faults",
+        {{"fault", "truncated golden"}, {"technique", "shadow_map"}, {"calls", whole.size()}, {"tried", cuts}, {"refused", cuts},
+            {"failures", testing::Test::HasFailure()}});
 }
 
 TEST(ProgramFaults, ClocksThatJumpChangeNothing)
