@@ -4,7 +4,10 @@
 #include "base/file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <sys/file.h>
 
 namespace gnomon::tests {
 
@@ -29,6 +32,9 @@ void record(const std::string& file, const nlohmann::ordered_json& row)
     const std::optional<fs::path> folder = results_folder();
     if (!folder) return;
     const fs::path path = *folder / (file + ".json");
+    // two programs write at once; closing lets the other in
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> lock(std::fopen((*folder / ".lock").c_str(), "w"), &std::fclose);
+    if (lock) ::flock(::fileno(lock.get()), LOCK_EX);
     nlohmann::ordered_json json = {{"rows", nlohmann::ordered_json::array()}};
     if (fs::exists(path)) json = nlohmann::ordered_json::parse(base::read_text(path));
     json["rows"].push_back(row);

@@ -70,12 +70,10 @@ TEST(ProgramFaults, MemoryThatRunsOutAnywhereIsSaid)
     const long requests = count(truth_command, scratch).first;
     ASSERT_GT(requests, 500);
     const std::map<std::string, std::string> whole = written(scratch);
-    // thousands of them, each in a process of its own: four hundred say enough
-    const long runs = at_full_length() ? std::max(10l, 400 / long(step_of(1, 1))) : 12;
-    long said = 0;
-    for (long i = 0; i < runs; ++i) {
+    const long step = long(step_of(uint64_t(requests), 12));
+    long said = 0, runs = 0;
+    for (long n = 0; n < requests; n += step, ++runs) {
         forget(scratch);
-        const long n = i * requests / runs;
         SCOPED_TRACE("request " + std::to_string(n));
         const Finished f = run_gnomon(
             truth_command, scratch.folder(), {.environment = preload({{"GNOMON_FAIL_NEW", std::to_string(n)}}), .seconds = 60});
