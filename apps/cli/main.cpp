@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -273,19 +274,22 @@ int run(int argc, char** argv)
 
 constexpr const char* out_of_memory = "gnomon: out of memory; try a smaller --size, --detail or scene\n";
 
-/// JSON values ask for memory in their destructors, which may not throw.
+std::atomic<bool> memory_ran_out = false;
+
+/// In place of operator new's own throw.
+[[noreturn]] void at_failed_new()
+{
+    memory_ran_out = true;
+    throw std::bad_alloc();
+}
+
+/// JSON's destructors and the standard library's directory iterators ask for memory where nothing may be thrown; which exception it was
+/// cannot always be found here.
 [[noreturn]] void at_terminate()
 {
-    std::set_terminate([] { // where nothing can be caught, `throw` comes here
-        std::fputs("gnomon: internal fault in a place that cannot report it; please report it with the command line\n", stderr);
-        std::abort();
-    });
-    try {
-        throw;
-    } catch (const std::bad_alloc&) {
+    if (memory_ran_out) {
         std::fputs(out_of_memory, stderr);
         std::_Exit(1);
-    } catch (...) {
     }
     std::fputs("gnomon: internal fault in a place that cannot report it; please report it with the command line\n", stderr);
     std::abort();
@@ -295,6 +299,7 @@ constexpr const char* out_of_memory = "gnomon: out of memory; try a smaller --si
 
 int main(int argc, char** argv)
 {
+    std::set_new_handler(at_failed_new);
     std::set_terminate(at_terminate);
     // 1: what was asked cannot be done; 2: it was not understood; 3: a fault of the program
     try {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene that lies 100 km from the origin looks as it does at the origin, to techniques and to the truth.
 #include "lab/render.h"
+#include "reliability.h"
 #include "scene/rebase.h"
 #include "tests/gpu/device_fixture.h"
 #include "truth/truth.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -84,13 +87,18 @@ protected:
     }
 
     /// All but a few pixels, on edges, where the last bits of a coordinate decide.
-    static void expect_same(const base::Picture& a, const base::Picture& b, const char* what)
+    void expect_same(const base::Picture& a, const base::Picture& b, const char* what)
     {
         size_t off = 0;
         double dark = 0;
         for (size_t i = 0; i < a.values.size(); ++i) off += std::abs(a.values[i] - b.values[i]) > 0.02f, dark += 1.0 - double(a.values[i]);
         EXPECT_GT(dark, 100.0) << what;
         EXPECT_LE(off, a.values.size() / 1000) << what;
+        record("limits",
+            {{"limit",
+                 fmt::format("{} {:.0f} km from the origin, {}", std::get<0>(GetParam()) == Moved::instances ? "instances" : "vertices",
+                     glm::length(far_away) / 1000.0f, what)},
+                {"outcome", fmt::format("{} of {} pixels differ from those at the origin by more than 0.02", off, a.values.size())}});
     }
 };
 
@@ -99,7 +107,7 @@ TEST_P(Far, TheSamePicture)
     const lab::Stage near = near_stage(), far = far_stage(near);
     EXPECT_LT(glm::length(far.bounds.centre()), 2.0f * far.bounds.radius());
     expect_same(trace(near), trace(far), "truth");
-    expect_same(draw(near), draw(far), "technique");
+    expect_same(draw(near), draw(far), std::get<1>(GetParam()));
 }
 
 constexpr const char *sun = "sun,elevation=50,azimuth=35,angle=0", *rect = "rect,position=2/5/1,target=0/0/0,intensity=40";

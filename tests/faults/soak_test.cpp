@@ -78,13 +78,13 @@ TEST(Soak, NothingGrows)
         const size_t wanted = at_full_length() ? 2000 : 4 * frames_of_a_round.size();
         // the first round makes the pipelines, the second finds the pools of a full round
         while (frames < wanted || rounds.size() < 4) {
-            for (const FramePlan& f : frames_of_a_round) {
+            for (size_t n = 0; n < frames_of_a_round.size(); ++n, ++frames) {
+                const FramePlan& f = frames_of_a_round[n];
                 const lab::Stage stage = lab::open_stage({.scene = f.scene, .load = {.detail = 0.05}, .lights = {f.light}, .size = f.size});
                 shadow::SceneGpu scene(*device, stage.scene);
                 const lab::Rendered r = lab::render(
-                    *device, scene, stage, lab::default_choice(*f.info), {.frame_index = uint32_t(frames), .lit = frames % 2 == 0});
+                    *device, scene, stage, lab::default_choice(*f.info), {.frame_index = uint32_t(frames), .lit = n % 2 == 0});
                 ASSERT_EQ(r.images.size(), 1u);
-                ++frames;
             }
             rounds.push_back({device->allocated_bytes(), resident_bytes(), driver.live()});
         }

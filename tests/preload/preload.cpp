@@ -64,9 +64,18 @@ void* request(std::size_t bytes, std::size_t alignment, const void* caller)
 
 void* request_or_throw(std::size_t bytes, std::size_t alignment, const void* caller)
 {
-    void* p = request(bytes, alignment, caller);
-    if (!p) throw std::bad_alloc();
-    return p;
+    if (void* p = request(bytes, alignment, caller)) return p;
+    if (const std::new_handler handler = std::get_new_handler()) handler(); // as the standard's operator new; the program's throws
+    throw std::bad_alloc();
+}
+
+void* request_or_null(std::size_t bytes, std::size_t alignment, const void* caller) noexcept
+{
+    try {
+        return request_or_throw(bytes, alignment, caller);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
 }
 
 bool read_only()
@@ -97,8 +106,8 @@ void* operator new(std::size_t n) { return request_or_throw(n, 0, __builtin_retu
 void* operator new[](std::size_t n) { return request_or_throw(n, 0, __builtin_return_address(0)); }
 void* operator new(std::size_t n, std::align_val_t a) { return request_or_throw(n, std::size_t(a), __builtin_return_address(0)); }
 void* operator new[](std::size_t n, std::align_val_t a) { return request_or_throw(n, std::size_t(a), __builtin_return_address(0)); }
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return request(n, 0, __builtin_return_address(0)); }
-void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return request(n, 0, __builtin_return_address(0)); }
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return request_or_null(n, 0, __builtin_return_address(0)); }
+void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return request_or_null(n, 0, __builtin_return_address(0)); }
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
