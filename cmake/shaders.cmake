@@ -8,7 +8,7 @@ function(gnomon_compile_shader source name output)
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${GNOMON_GLSLC} -O -g --target-env=vulkan1.3 -fshader-stage=${stage} -Werror -mfmt=num -MD -MF ${output}.d
+    COMMAND ${GNOMON_GLSLC} ${GNOMON_SHADER_OPTIMISATION} -g --target-env=vulkan1.3 -fshader-stage=${stage} -Werror -mfmt=num -MD -MF ${output}.d
             -I ${CMAKE_SOURCE_DIR} -o ${output} ${source}
     DEPENDS ${source} DEPFILE ${output}.d COMMENT "GLSL ${name}" VERBATIM)
 endfunction()

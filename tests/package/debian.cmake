@@ -44,7 +44,7 @@ if(PYTHON)
   string(REGEX MATCH "python3 \\(>= (3\\.[0-9]+)\\)" version "${control}")
   find_program(python_program python${CMAKE_MATCH_1} HINTS /usr/bin REQUIRED)
   demand(${CMAKE_COMMAND} -E env PYTHONPATH=${FOLDER}/unpacked/usr/lib/python3/dist-packages
-         ${python_program} -c "import gnomon; print(gnomon.__file__, gnomon.truth('plane', size=(8, 6)).mean.shape)")
+         ${python_program} -c "import gnomon\nprint(gnomon.__file__, gnomon.truth('plane', size=(8, 6)).mean.shape)")
   if(NOT text MATCHES "unpacked[^\n]*\\(6, 8")
     message(FATAL_ERROR "the packaged Python module traces no truth:\n${text}")
   endif()
