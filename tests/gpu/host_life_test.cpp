@@ -146,7 +146,7 @@ TEST_F(HostLife, CastersMovedAndLightsMovedAreThoseOfAFreshScene)
         const std::vector<float> kept = once(library, shadow, b, commands);
         // its origin lies where the first scene's does
         const gnomon::Scene fresh_casters(library, host.info);
-        fresh_casters.move(1, moved.instances[1].transform);
+        fresh_casters.move(0, {moved.instances[0].transform, moved.instances[1].transform});
         const gnomon::Shadow fresh(fresh_casters, std::string(info->id));
         EXPECT_EQ(kept, once(library, fresh, c, commands)) << info->id;
         EXPECT_NE(kept, old) << info->id;

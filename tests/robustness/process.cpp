@@ -29,6 +29,7 @@ namespace {
         const rlimit limit{memory, memory};
         ::setrlimit(RLIMIT_AS, &limit);
     }
+    ::signal(SIGINT, SIG_DFL); // a shell's background jobs inherit that it is ignored
     ::execv(GNOMON_PROGRAM, arguments);
     ::_exit(127);
 }

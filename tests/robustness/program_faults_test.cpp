@@ -118,7 +118,7 @@ TEST(ProgramFaults, ADiskThatCannotBeWrittenIsSaid)
         EXPECT_FALSE(fs::exists(scratch / command.back()));
         record("faults",
             {{"fault", "read-only disk"}, {"technique", command[0] + " (the program)"}, {"calls", 1}, {"tried", 1},
-                {"refused", f.code == 1}, {"failures", testing::Test::HasFailure()}});
+                {"refused", int(f.code == 1)}, {"failures", testing::Test::HasFailure()}});
     }
 }
 
