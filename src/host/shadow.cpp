@@ -134,7 +134,10 @@ uint64_t Shadow::record(const gnomon_frame& frame)
         refuse(GNOMON_ERROR_UNSUPPORTED, "gnomon_frame::output has the format {}, which this device cannot draw into", int(target.format));
     const scene::Light light = light_of(frame.light, casters_->world_from_host());
     check_inputs(light);
-    const HostView view = view_of(frame, casters_->world_from_host(), size, casters_->resources().bounds());
+    const bool ids = info_.reads_ids && info_.reads_ids(params_.bytes());
+    gnomon_frame seen = frame;
+    if (ids || !frame.depth.image) seen.depth = {}; // receivers are drawn here, at the centres of pixels, not at the host's samples
+    const HostView view = view_of(seen, casters_->world_from_host(), size, casters_->resources().bounds());
 
     if (casters_->has_unread()) { // a list of its own: acceleration structures are built between it and the next
         gpu::PassList reads(gpu);
@@ -146,8 +149,7 @@ uint64_t Shadow::record(const gnomon_frame& frame)
     HostImages images(gpu);
     const gpu::ImageId output = images.import(passes, target, "output", false);
     passes.group("common");
-    const bool ids = info_.reads_ids && info_.reads_ids(params_.bytes());
-    const shadow::GBuffer gbuffer = receive(passes, *casters_, images, frame, view, ids);
+    const shadow::GBuffer gbuffer = receive(passes, *casters_, images, seen, view, ids);
     passes.group("");
     const gpu::ImageId image = passes.transient(
         gpu::ImageDesc{shadow::output_format(info_, params_.bytes(), light), size, 1, 1, VK_SAMPLE_COUNT_1_BIT, false, "shadow"});
