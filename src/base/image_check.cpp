@@ -30,6 +30,58 @@ bool sound_tables(std::span<const std::byte> file, size_t at)
     return true;
 }
 
+constexpr uint8_t progressive_frame = 0xc2, huffman_tables = 0xc4, start_of_image = 0xd8, end_of_image = 0xd9, start_of_scan = 0xda;
+
+/// The tables of a segment of Huffman tables as bits: 0 to 3 of differences (DC), 4 to 7 of the others (AC).
+unsigned tables_of(std::span<const std::byte> file, size_t at)
+{
+    unsigned out = 0;
+    const size_t end = at + length_at(file, at);
+    for (at += 2; at < end;) {
+        const uint8_t name = byte_at(file, at);
+        out |= 1u << ((name >> 4 & 1) * 4 + (name & 3));
+        for (size_t i = 1, first = at; i <= 16; ++i) at += byte_at(file, first + i);
+        at += 17;
+    }
+    return out;
+}
+
+/// The tables that the scan at `at` decodes by: of a progressive file, one kind or, where it refines differences, none.
+unsigned tables_read(std::span<const std::byte> file, size_t at, bool progressive)
+{
+    const size_t components = byte_at(file, at + 2), rest = at + 3 + 2 * components;
+    const bool first_band = byte_at(file, rest) == 0, refines = byte_at(file, rest + 2) >> 4 != 0;
+    unsigned out = 0;
+    for (size_t i = 0; i < components; ++i) {
+        const uint8_t names = byte_at(file, at + 4 + 2 * i);
+        if (!progressive || (first_band && !refines)) out |= 1u << (names >> 4 & 3);
+        if (!progressive || !first_band) out |= 16u << (names & 3);
+    }
+    return out;
+}
+
+/// Whether every scan comes after the tables that it names: stb_image 2.27 reads others as they lie in memory, and beyond their ends.
+bool tables_precede_scans(std::span<const std::byte> file)
+{
+    unsigned defined = 0;
+    bool progressive = false;
+    for (size_t at = 2; at + 1 < file.size();) {
+        const uint8_t mark = byte_at(file, at + 1);
+        const bool compressed = mark == 0 || (mark >= 0xd0 && mark <= 0xd7); // a byte of data, or where decoding may begin again
+        if (byte_at(file, at) != 0xff || mark == 0xff || compressed) {
+            ++at;
+            continue;
+        }
+        at += 2;
+        if (mark == end_of_image) break;
+        progressive |= mark == progressive_frame;
+        if (mark == huffman_tables) defined |= tables_of(file, at);
+        if (mark == start_of_scan && (tables_read(file, at, progressive) & ~defined) != 0) return false;
+        at += length_at(file, at);
+    }
+    return true;
+}
+
 std::string unfit_png(std::span<const std::byte> file)
 {
     for (size_t at = 8; at + 8 <= file.size();) {
@@ -42,7 +94,6 @@ std::string unfit_png(std::span<const std::byte> file)
 
 std::string unfit_jpeg(std::span<const std::byte> file)
 {
-    constexpr uint8_t huffman_tables = 0xc4, start_of_scan = 0xda, start_of_image = 0xd8;
     // The decoder also takes files with fill bytes before their first mark, which would put this walk out of step.
     if (byte_at(file, 1) != start_of_image) return "begins with no mark of a JPEG";
     int scans = 0;
@@ -58,6 +109,7 @@ std::string unfit_jpeg(std::span<const std::byte> file)
         if (mark == start_of_scan && ++scans > most_scans) return fmt::format("has more than {} scans", most_scans);
         if (scans == 0) at += length_at(file, at);
     }
+    if (!tables_precede_scans(file)) return "has a scan before the Huffman tables that it names";
     return {};
 }
 

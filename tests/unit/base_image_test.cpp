@@ -144,6 +144,37 @@ TEST_F(BaseImage, headers_that_promise_more_than_the_file_holds_are_refused)
     EXPECT_NE(refusal(std::vector<std::byte>(50, std::byte('B'))).find("give a PNG or JPEG"), std::string::npos);
 }
 
+TEST_F(BaseImage, jpegs_whose_scans_name_tables_that_are_not_there_are_refused)
+{
+    const auto refused = [](int frame, std::initializer_list<int> tables, std::initializer_list<int> band) {
+        std::vector<int> numbers = {0xff, 0xd8, 0xff, frame, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0};
+        for (const int name : tables) {
+            numbers.insert(numbers.end(), {0xff, 0xc4, 0, 20, name, 1});
+            numbers.insert(numbers.end(), 16, 0); // one code of one bit
+        }
+        numbers.insert(numbers.end(), {0xff, 0xda, 0, 8, 1, 1, 0x21}); // differences by table 2, the others by 1
+        numbers.insert(numbers.end(), band);
+        std::vector<std::byte> file;
+        for (const int n : numbers) file.push_back(std::byte(n));
+        try {
+            decode_rgba8(file, "picture");
+        } catch (const Error& e) {
+            return std::string(e.what()).find("before the Huffman tables") != std::string::npos;
+        }
+        return false;
+    };
+    constexpr int baseline = 0xc0, progressive = 0xc2, dc = 0x02, ac = 0x11;
+    EXPECT_FALSE(refused(baseline, {dc, ac}, {0, 63, 0}));
+    EXPECT_TRUE(refused(baseline, {dc}, {0, 63, 0}));
+    EXPECT_TRUE(refused(baseline, {ac}, {0, 63, 0}));
+    EXPECT_TRUE(refused(baseline, {0x00, 0x10}, {0, 63, 0}));
+    EXPECT_FALSE(refused(progressive, {dc}, {0, 0, 1}));
+    EXPECT_FALSE(refused(progressive, {ac}, {1, 63, 1}));
+    EXPECT_FALSE(refused(progressive, {}, {0, 0, 0x10})) << "a refinement of differences has no codes";
+    EXPECT_TRUE(refused(progressive, {dc}, {1, 63, 0}));
+    EXPECT_TRUE(refused(progressive, {}, {0, 0, 1}));
+}
+
 TEST_F(BaseImage, damaged_png_is_refused)
 {
     write_png(folder / "p.png", gradient({64, 48}, 3), Encoding::linear);
