@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "last_words.h"
 #include "options.h"
 #include "usage.h"
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -272,35 +271,11 @@ int run(int argc, char** argv)
     return cli::convert(convert);
 }
 
-constexpr const char* out_of_memory = "gnomon: out of memory; try a smaller --size, --detail or scene\n";
-
-std::atomic<bool> memory_ran_out = false;
-
-/// In place of operator new's own throw.
-[[noreturn]] void at_failed_new()
-{
-    memory_ran_out = true;
-    throw std::bad_alloc();
-}
-
-/// JSON's destructors and the standard library's directory iterators ask for memory where nothing may be thrown; which exception it was
-/// cannot always be found here.
-[[noreturn]] void at_terminate()
-{
-    if (memory_ran_out) {
-        std::fputs(out_of_memory, stderr);
-        std::_Exit(1);
-    }
-    std::fputs("gnomon: internal fault in a place that cannot report it; please report it with the command line\n", stderr);
-    std::abort();
-}
-
 } // namespace
 
 int main(int argc, char** argv)
 {
-    std::set_new_handler(at_failed_new);
-    std::set_terminate(at_terminate);
+    cli::set_last_words();
     // 1: what was asked cannot be done; 2: it was not understood; 3: a fault of the program
     try {
         return run(argc, argv);
@@ -311,7 +286,7 @@ int main(int argc, char** argv)
         fmt::print(stderr, "gnomon: {}\n", e.what());
         return 1;
     } catch (const std::bad_alloc&) {
-        std::fputs(out_of_memory, stderr);
+        std::fputs(cli::out_of_memory, stderr);
         return 1;
     } catch (const std::exception& e) {
         fmt::print(stderr, "gnomon: internal fault: {}; please report it with the command line\n", e.what());
