@@ -84,9 +84,13 @@ bool tables_precede_scans(std::span<const std::byte> file)
 
 std::string unfit_png(std::span<const std::byte> file)
 {
+    bool pixels_seen = false;
     for (size_t at = 8; at + 8 <= file.size();) {
         const size_t length = length_at(file, at) << 16 | length_at(file, at + 2);
         if (length > file.size() - at - 8) return fmt::format("ends within the chunk at byte {}", at);
+        const bool pixels = (length_at(file, at + 4) << 16 | length_at(file, at + 6)) == 0x49444154; // IDAT
+        if (pixels && !pixels_seen && length == 0) return "begins its pixels with an empty chunk"; // the decoder copies it to nowhere
+        pixels_seen |= pixels;
         at += length + 12; // length, name, data, checksum
     }
     return {};

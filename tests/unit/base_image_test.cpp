@@ -130,6 +130,7 @@ TEST_F(BaseImage, headers_that_promise_more_than_the_file_holds_are_refused)
     EXPECT_EQ(refusal(whole), "decoded");
     EXPECT_NE(refusal(changed(16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})).find("268435456 pixels"), std::string::npos) << "of the header";
     EXPECT_NE(refusal(changed(33, {0x3f, 0xff, 0xff, 0xff})).find("within the chunk at byte 33"), std::string::npos) << "of the pixels";
+    EXPECT_NE(refusal(changed(33, {0, 0, 0, 0})).find("an empty chunk"), std::string::npos) << refusal(changed(33, {0, 0, 0, 0}));
 
     // A JPEG with a table of 16 times 17 Huffman codes, where 256 have room; and one of many scans.
     std::vector<std::byte> tables
