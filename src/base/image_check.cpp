@@ -61,6 +61,7 @@ unsigned tables_read(std::span<const std::byte> file, size_t at, bool progressiv
 }
 
 /// Whether every scan comes after the tables that it names: stb_image 2.27 reads others as they lie in memory, and beyond their ends.
+/// A walk of its own, from segment to segment as the decoder goes: what looks like a mark within a segment would define nothing.
 bool tables_precede_scans(std::span<const std::byte> file)
 {
     unsigned defined = 0;

@@ -4,10 +4,11 @@
 #include "base/file.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
-#include <memory>
+#include <fcntl.h>
+#include <stdexcept>
 #include <sys/file.h>
+#include <unistd.h>
 
 namespace gnomon::tests {
 
@@ -32,13 +33,13 @@ void record(const std::string& file, const nlohmann::ordered_json& row)
     const std::optional<fs::path> folder = results_folder();
     if (!folder) return;
     const fs::path path = *folder / (file + ".json");
-    // two programs write at once; closing lets the other in
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> lock(std::fopen((*folder / ".lock").c_str(), "w"), &std::fclose);
-    if (lock) ::flock(::fileno(lock.get()), LOCK_EX);
+    const int lock = ::open(folder->c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); // two programs write at once
+    if (lock < 0 || ::flock(lock, LOCK_EX) != 0) throw std::runtime_error("cannot lock " + folder->string());
     nlohmann::ordered_json json = {{"rows", nlohmann::ordered_json::array()}};
     if (fs::exists(path)) json = nlohmann::ordered_json::parse(base::read_text(path));
     json["rows"].push_back(row);
     base::write_text(path, json.dump(1) + "\n");
+    ::close(lock);
 }
 
 } // namespace gnomon::tests

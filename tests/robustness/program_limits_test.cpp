@@ -80,8 +80,9 @@ std::vector<std::string> least_work(const Json& technique)
     std::vector<std::string> out;
     for (const Json& p : technique.at("parameters")) {
         const std::string name = p.at("name");
-        const double least = p.contains("range") ? p.at("range").at(0).get<double>() : 0;
-        if (least < 16 && (least < 1 || name != "samples")) continue;
+        if (!p.contains("range")) continue;
+        const double least = p.at("range").at(0);
+        if (least < 16 && name != "samples") continue; // 16 texels, cells or pages are the least of all maps, grids and pools
         out.push_back(fmt::format("--{}.{}", technique.at("id").get<std::string>(), name));
         out.push_back(fmt::format("{:.0f}", least));
     }
